@@ -1,0 +1,38 @@
+/* mesh.h: the tetrahedral mesh that every other part reads.
+ *
+ * Double precision. Real tets come first, imaginary ones (convexification, Williams 1992; Weiler et al. 2003, 3.4)
+ * follow. After tc_mesh_prepare: every tet has positive orientation (dot(cross(b-a, c-a), d-a) >= 0), no tet repeats a
+ * vertex, adjacency is an involution, only faces with equal vertex sets on opposite sides are linked, cells and
+ * vertices follow a Hilbert curve. */
+#ifndef TC_MESH_MESH_H
+#define TC_MESH_MESH_H
+
+#include "core/status.h"
+
+struct tc_mesh {
+    size_t n_vertex;    /* Steiner points last */
+    double *vertex;     /* [n_vertex][3] */
+    size_t n_tet;       /* real tets */
+    size_t n_imaginary; /* imaginary tets, after the real ones */
+    int32_t *tet;       /* [n_tet + n_imaginary][4] */
+    int32_t *neighbour; /* [n_tet + n_imaginary][4]; face f lies opposite vertex f; -1 outside; NULL before prepare */
+
+    double *scalar;     /* [n_vertex] (TC_POINT_DATA; 0 at Steiner points) or [n_tet] (TC_CELL_DATA) */
+    tc_association association;
+    char *field_name;   /* NULL: no field */
+
+    /* From the arrays that made the mesh to this order: -1 dropped. NULL before prepare (identity). */
+    size_t n_vertex_source, n_tet_source;
+    int32_t *vertex_of_source; /* [n_vertex_source] */
+    int32_t *tet_of_source;    /* [n_tet_source] */
+
+    bool prepared;
+    uint64_t serial;        /* changes with geometry: a renderer uploads again when it does */
+    uint64_t scalar_serial; /* changes with values */
+    tc_mesh_report report;
+
+    tc_source *source;      /* what the file held; NULL for arrays */
+    void *source_memory;    /* everything source points into: one block, free() */
+};
+
+#endif

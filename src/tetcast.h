@@ -1,0 +1,363 @@
+/* tetcast.h: the one public header of libtetcast.
+ *
+ * tetcast casts rays through tetrahedral meshes (Weiler, Kraus, Merz, Ertl 2003). A program makes a mesh (from
+ * arrays, from a file, or synthetic), prepares it once, makes a transfer function and a camera, and renders to a
+ * float image or into a framebuffer of a GL context that it owns.
+ *
+ * Conventions: every function that can fail returns a tc_status and fills *err (may be NULL) with one sentence.
+ * The library never prints, never exits, keeps no globals. Objects come from *_create / *_read and go with
+ * *_destroy(T **), which accepts NULL and nulls the pointer. `const` pointers are borrowed for the call.
+ */
+#ifndef TETCAST_H
+#define TETCAST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define TC_API __attribute__((visibility("default")))
+#else
+#define TC_API
+#endif
+
+#define TC_VERSION_STRING "0.1.0"
+
+/* ------------------------------------------------------------------------------------------ status and talk */
+
+typedef enum tc_status {
+    TC_OK = 0,
+    TC_E_ARG = -1,    /* an argument is out of its range */
+    TC_E_MEMORY = -2, /* memory or GPU memory ran out */
+    TC_E_FILE = -3,   /* a file could not be read or written */
+    TC_E_MESH = -4,   /* the mesh cannot be rendered */
+    TC_E_GL = -5,     /* no GL context, or GL failed */
+    TC_E_WORKER = -6, /* a helper program failed */
+    TC_E_LOST = -7,   /* a ray was lost: an error of ours, the picture is not to be trusted */
+    TC_E_EMPTY = -8,  /* nothing would be seen */
+    TC_E_CANCEL = -9  /* the caller asked to stop */
+} tc_status;
+
+typedef struct tc_error {
+    tc_status code;
+    char text[1024]; /* one sentence: the file, what is wrong, the remedy */
+} tc_error;
+
+typedef enum tc_level { TC_WARNING = 0, TC_INFO = 1, TC_DEBUG = 2 } tc_level;
+
+/* How the library talks. Each function may be NULL. Called from the thread that called the library. */
+typedef struct tc_log {
+    void (*message)(void *user, tc_level level, const char *text);
+    void (*progress)(void *user, const char *what, double fraction); /* fraction < 0: not known */
+    void *user;
+} tc_log;
+
+TC_API const char *tc_version(void);
+
+/* ------------------------------------------------------------------------------------------------------ mesh */
+
+typedef enum tc_association { TC_ANY_DATA = 0, TC_POINT_DATA = 1, TC_CELL_DATA = 2 } tc_association;
+
+typedef struct tc_mesh tc_mesh;
+
+/* A mesh as plain arrays, borrowed for the call of tc_mesh_create. */
+typedef struct tc_mesh_arrays {
+    size_t n_vertex;
+    const double *vertex; /* [n_vertex][3] */
+    size_t n_tet;
+    const int32_t *tet;   /* [n_tet][4] vertex ids, either orientation */
+    const double *scalar; /* [n_vertex] or [n_tet] by association; NULL: no field (0 everywhere) */
+    tc_association association;
+    const char *field_name; /* may be NULL */
+} tc_mesh_arrays;
+
+/* Copies the arrays into a new mesh. Errors: TC_E_ARG, TC_E_MEMORY, TC_E_MESH (an id out of range; names the tet). */
+TC_API tc_status tc_mesh_create(tc_mesh **out, const tc_mesh_arrays *arrays, tc_error *err);
+TC_API void tc_mesh_destroy(tc_mesh **mesh);
+
+/* New values on the same (prepared) mesh; scalar has the length of the arrays that made the mesh, in their order. */
+TC_API tc_status tc_mesh_set_scalar(tc_mesh *mesh, const double *scalar, tc_association association, tc_error *err);
+
+typedef enum tc_reentry { TC_REENTRY_AUTO = 0, TC_REENTRY_CONVEXIFY = 1, TC_REENTRY_PEEL = 2 } tc_reentry;
+
+typedef struct tc_prepare_options {
+    tc_reentry reentry;       /* how rays cross gaps; AUTO: convexify, and peel if that fails */
+    double convexify_limit_s; /* time limit of the TetGen helper; 0: 120 s */
+    int threads;              /* 0: all cores */
+} tc_prepare_options;
+
+/* Checks and repairs the mesh, orders it along a Hilbert curve, links neighbours and fills gaps. Must precede
+ * rendering; a second call with another reentry redoes only the gaps. Errors: TC_E_MESH, TC_E_MEMORY, TC_E_WORKER
+ * (only with TC_REENTRY_CONVEXIFY). Cost: O(n log n) time. */
+TC_API tc_status tc_mesh_prepare(tc_mesh *mesh, const tc_prepare_options *options, const tc_log *log, tc_error *err);
+
+/* What a mesh is and what was done to it. Counts of repairs are 0 before tc_mesh_prepare. */
+typedef struct tc_mesh_report {
+    size_t n_vertex, n_tet;      /* after repair, without imaginary ones */
+    size_t n_imaginary;          /* imaginary tets */
+    size_t n_steiner;            /* points TetGen added, in imaginary tets only */
+    size_t n_boundary_face;      /* faces of real tets without a real neighbour */
+    size_t n_component;          /* face-connected parts */
+    size_t dropped_degenerate;   /* tets that repeated a vertex */
+    size_t dropped_nonfinite;    /* tets with a non-finite vertex */
+    size_t dropped_duplicate;    /* tets equal to another one */
+    size_t reoriented;           /* tets turned to positive volume */
+    size_t zero_volume;          /* tets of zero volume, kept */
+    size_t merged_vertices;      /* coincident points merged */
+    size_t unused_vertices;      /* points no tet uses, dropped */
+    size_t unlinked_faces;       /* faces with three cells, or two on one side */
+    size_t nonfinite_scalars;    /* NaN or Inf values */
+    bool convex;                 /* the real tets alone fill their hull */
+    tc_reentry reentry;          /* what is in force: CONVEXIFY or PEEL */
+    char reentry_why[256];       /* why not the asked way; "" if it is */
+    double bounds[6];            /* xmin xmax ymin ymax zmin zmax */
+    double scalar_range[2];      /* of finite values */
+    double longest_edge;         /* of real tets */
+    double volume;               /* sum over real tets */
+    tc_association association;
+    double ms_check, ms_adjacency, ms_order, ms_convexify;
+    size_t source_cells;         /* cells of the file before splitting, 3-D only; n_tet for meshes from arrays */
+} tc_mesh_report;
+
+TC_API void tc_mesh_get_report(tc_mesh_report *out, const tc_mesh *mesh);
+
+/* ------------------------------------------------------------------------------------------------------ files */
+
+typedef struct tc_read_options {
+    const char *field;          /* "NAME", "NAME:COMPONENT", "NAME:magnitude"; NULL: the first array there is */
+    tc_association association; /* TC_ANY_DATA: point data first */
+    bool has_time, has_step;
+    double time;                /* nearest step at or before it; has_time */
+    int step;                   /* 0-based, negative from the end; has_step */
+    int refine;                 /* splits each curved (quadratic) simplex 1:8 this many times first; 0 none */
+    double idle_limit_s;        /* the reader is stopped after this long without progress; 0: 60 s */
+} tc_read_options;
+
+/* One array a file offers. */
+typedef struct tc_array_info {
+    const char *name;
+    tc_association association;
+    int components;
+    double lo, hi; /* finite range; of the magnitude where components > 1; lo > hi when nothing is finite */
+} tc_array_info;
+
+/* One kind of cell a file holds. */
+typedef struct tc_cell_info {
+    const char *type; /* "hexahedron", "quadratic_tetra", … */
+    int dimension;    /* 3: rendered; 0..2: left out */
+    size_t count;
+} tc_cell_info;
+
+/* What a file held, as the reader saw it. Strings and arrays belong to the mesh. */
+typedef struct tc_source {
+    const char *path, *format, *reader; /* "bluntfin.vtu", "VTK XML unstructured grid", "vtkXMLUnstructuredGridReader" */
+    const char *field;                  /* the array that was taken, as "NAME:magnitude"; NULL: none */
+    size_t n_point, n_cell;
+    size_t n_array;
+    const tc_array_info *array;
+    size_t n_cell_type;
+    const tc_cell_info *cell_type;
+    size_t n_time;
+    const double *time; /* [n_time] */
+    int step;           /* the step that was read, -1: the file has none */
+    size_t dropped_cells;   /* 2-D, 1-D, 0-D and broken cells left out */
+    bool linearised;        /* quadratic cells became linear tets */
+    int refine;             /* levels of refinement applied */
+    size_t n_note;
+    const char *const *note; /* sentences a user should see */
+    double ms_read;
+    size_t helper_peak_bytes;
+} tc_source;
+
+/* Reads one step of a file through tetcast-read. Chooses the format by content, then extension.
+ * Errors: TC_E_FILE (unreadable, no 3-D cells, missing array: lists those there are), TC_E_WORKER. */
+TC_API tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_options *options, const tc_log *log,
+                              tc_error *err);
+/* NULL for a mesh made from arrays. */
+TC_API const tc_source *tc_mesh_source(const tc_mesh *mesh);
+
+/* -------------------------------------------------------------------------------------------------- synthetic */
+
+typedef struct tc_synth_info {
+    const char *name, *what, *field; /* "heatsink", one line, the analytic field in words */
+} tc_synth_info;
+
+/* The generators; *n gets their count. Static memory. */
+TC_API const tc_synth_info *tc_synth_list(size_t *n);
+/* Builds a synthetic dataset of about n_cells tets (0: its default). Errors: TC_E_ARG (unknown name: lists them). */
+TC_API tc_status tc_synth_create(tc_mesh **out, const char *name, size_t n_cells, uint64_t seed, tc_error *err);
+/* Writes the real tets and the field of a mesh as a VTU file (raw appended data); whole or not at all. */
+TC_API tc_status tc_mesh_write_vtu(const tc_mesh *mesh, const char *path, tc_error *err);
+
+/* ------------------------------------------------------------------------------------------ transfer function */
+
+typedef struct tc_transfer tc_transfer;
+
+typedef struct tc_transfer_options {
+    const char *color_map; /* name of a built-in map or a ParaView preset (.json, .xml); NULL: "Cool to Warm" */
+    const char *preset;    /* which map of a file that holds several; NULL: the first */
+    const char *opacity;   /* file, "S:A,S:A,…", "linear", "geom", "sigmoid"; NULL: the preset's own, else linear 0 to 0.3 */
+    bool has_range;
+    double range[2];       /* the scalars that the map spans; has_range, else data_range */
+    double data_range[2];  /* of the field */
+    bool log;              /* the map is laid over log10 of the scalar */
+} tc_transfer_options;
+
+/* Errors: TC_E_FILE, TC_E_ARG (unknown name: the nearest ones). */
+TC_API tc_status tc_transfer_create(tc_transfer **out, const tc_transfer_options *options, tc_error *err);
+
+/* One knot of a piecewise linear function: scalar, colour (display space, 0..1), attenuation per unit distance. */
+typedef struct tc_knot {
+    double s, r, g, b, a;
+} tc_knot;
+
+/* From knots, ascending in s; two knots at one s make a step. Outside, the end knots' values hold. */
+TC_API tc_status tc_transfer_from_knots(tc_transfer **out, const tc_knot *knot, size_t n, tc_error *err);
+/* The knots in force, borrowed. */
+TC_API const tc_knot *tc_transfer_knots(const tc_transfer *tf, size_t *n);
+TC_API const char *tc_transfer_name(const tc_transfer *tf);
+/* Writes a ParaView preset (.json, or .xml by extension). */
+TC_API tc_status tc_transfer_write(const tc_transfer *tf, const char *path, tc_error *err);
+TC_API void tc_transfer_destroy(tc_transfer **tf);
+/* Names of the built-in maps; *n gets their count. */
+TC_API const char *const *tc_transfer_builtin(size_t *n);
+
+/* ----------------------------------------------------------------------------------------------------- camera */
+
+/* ParaView's camera. The image's vertical extent is view_angle degrees (perspective) or 2*parallel_scale. */
+typedef struct tc_camera {
+    double position[3], focal_point[3], view_up[3];
+    double view_angle;     /* degrees */
+    double parallel_scale; /* half the view's height in the mesh's unit */
+    bool parallel;
+} tc_camera;
+
+/* Whole box in view from direction (from focal point to eye), as vtkRenderer::ResetCamera does.
+ *   bounds [6], direction [3], up [3]; aspect = width / height. */
+TC_API void tc_camera_reset(tc_camera *camera, const double *bounds, const double *direction, const double *up,
+                            double view_angle, double aspect);
+TC_API void tc_camera_azimuth(tc_camera *camera, double degrees);
+TC_API void tc_camera_elevation(tc_camera *camera, double degrees);
+TC_API void tc_camera_roll(tc_camera *camera, double degrees);
+TC_API void tc_camera_zoom(tc_camera *camera, double factor);
+
+/* ------------------------------------------------------------------------------------------------------ image */
+
+/* Premultiplied float RGBA, row 0 at the top. */
+typedef struct tc_image {
+    int width, height;
+    float *rgba; /* [height][width][4] */
+} tc_image;
+
+typedef struct tc_text_pair {
+    const char *key, *value;
+} tc_text_pair;
+
+TC_API tc_status tc_image_create(tc_image **out, int width, int height, tc_error *err);
+TC_API void tc_image_destroy(tc_image **image);
+/* background over-composited in place: rgba premultiplied. */
+TC_API void tc_image_background(tc_image *image, const float *rgba);
+/* By extension png, exr, tif(f), jpg; "-": PNG to stdout. meta [n] may be NULL. Whole or not at all. */
+TC_API tc_status tc_image_write(const tc_image *image, const char *path, const tc_text_pair *meta, size_t n,
+                                const tc_log *log, tc_error *err);
+TC_API tc_status tc_image_read(tc_image **out, const char *path, tc_error *err);
+
+typedef struct tc_compare_result {
+    double max_abs, mean_abs, p999_abs, rms; /* over channels; mean and rms over pixels covered in either image */
+    size_t pixels, covered, differing;       /* differing: a channel differs by more than 1/255 */
+    int worst_x, worst_y;
+} tc_compare_result;
+/* Errors: TC_E_ARG when sizes differ. */
+TC_API tc_status tc_image_compare(tc_compare_result *out, const tc_image *a, const tc_image *b, tc_error *err);
+
+/* ----------------------------------------------------------------------------------------------------- render */
+
+typedef enum tc_integrator { TC_INTEGRATOR_AUTO = 0, TC_INTEGRATOR_TABLE = 1, TC_INTEGRATOR_INTEGRAL = 2 } tc_integrator;
+typedef enum tc_table_format { TC_TABLE_AUTO = 0, TC_TABLE_8 = 8, TC_TABLE_16F = 16, TC_TABLE_32F = 32 } tc_table_format;
+
+typedef struct tc_renderer tc_renderer;
+
+/* Where the pictures are made. */
+typedef struct tc_renderer_options {
+    const char *gl;     /* "auto", "osmesa", "egl"; NULL: auto. Ignored by the driver "reference" */
+    const char *driver; /* "auto", "pingpong", "reference"; NULL: auto */
+    void *(*get_proc_address)(const char *name); /* not NULL: a context the host owns and has made current */
+    int threads;        /* 0: all cores */
+} tc_renderer_options;
+
+TC_API tc_status tc_renderer_create(tc_renderer **out, const tc_renderer_options *options, const tc_log *log,
+                                    tc_error *err);
+TC_API void tc_renderer_destroy(tc_renderer **renderer);
+
+/* A picture's settings; zero-initialise, then tc_render_defaults. */
+typedef struct tc_render_options {
+    int width, height;
+    tc_integrator integrator;
+    int table_size[3];            /* s_front, s_back, length; 0: 128 128 256 */
+    tc_table_format table_format;
+    double unit_distance;         /* 0: bounds diagonal / cbrt(cells) */
+    double opacity_stop;          /* a ray ends at this alpha; 1: never */
+    int steps_per_pass;           /* K; 0: auto */
+    int z_update_every;           /* passes between z-locks; 0: auto; -1: never lock */
+    bool count;                   /* count steps, fragments per pass (costs time) */
+} tc_render_options;
+
+TC_API void tc_render_defaults(tc_render_options *options);
+
+/* What a render did. Negative or NaN means: not measured. */
+typedef struct tc_render_stats {
+    char context[32], gl_renderer[128], gl_version[64], driver[16], stepper[16], integrator[16];
+    char integrator_why[256];
+    double ms_pack, ms_upload, ms_table, ms_compile, ms_first_hit, ms_march, ms_frame, ms_readback;
+    double gpu_bytes_mesh, gpu_bytes_other, gpu_bytes_table, gpu_bytes_state; /* cells + vertices; boundary; tables; state */
+    int steps_per_pass, z_update_every, passes, z_updates, layers; /* layers: entries peeled, 1 when convex */
+    int64_t rays, rays_lost, steps, steps_max;
+    size_t n_fragments_per_pass;
+    const int64_t *fragments_per_pass; /* belongs to the renderer, until its next call */
+} tc_render_stats;
+
+/* Renders to out (made by the call). The mesh must be prepared; it, tf and camera are borrowed. Mesh, function and
+ * programs stay uploaded in the renderer until another one is given, so a second frame costs first hit and march only.
+ * Errors: TC_E_LOST (out is still made, for diagnosis), TC_E_GL, TC_E_MEMORY, TC_E_EMPTY is never given here. */
+TC_API tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
+                           const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
+                           const tc_log *log, tc_error *err);
+/* The same into the framebuffer object `framebuffer` of the current, host-owned context, over what it holds. */
+TC_API tc_status tc_render_gl(unsigned framebuffer, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
+                              const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
+                              const tc_log *log, tc_error *err);
+
+typedef struct tc_verify_result {
+    size_t pixels, ill_posed;
+    double max_abs_error, p999_abs_error, mean_abs_error; /* without the ill-posed rays */
+    double worst_error_ill_posed;
+    int worst_x, worst_y;
+    int64_t rays_lost;
+} tc_verify_result;
+
+/* Re-traces n pixels of image (before its background; chosen with seed, n >= all pixels: all) with the
+ * double-precision reference and compares in float. */
+TC_API tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed, const tc_mesh *mesh,
+                           const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
+                           const tc_log *log, tc_error *err);
+
+/* One context or driver of this build. */
+typedef struct tc_backend_info {
+    const char *kind, *name; /* "context" or "driver" */
+    bool works;
+    char why[256];           /* renderer string, or why it is missing */
+} tc_backend_info;
+/* Tries every one. out [capacity]; *n gets the count. */
+TC_API tc_status tc_backends(tc_backend_info *out, size_t capacity, size_t *n, tc_error *err);
+
+/* Peak resident bytes of this process and of its helpers so far. */
+TC_API void tc_memory_peak(size_t *self_bytes, size_t *helper_bytes);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
