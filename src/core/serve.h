@@ -13,6 +13,10 @@ extern "C" {
 
 typedef struct tc_serve tc_serve;
 
+/* Strings for json_* must be UTF-8; tc_wire_string (core/wire.h) makes a JSON string of any bytes. The tc_serve_*
+ * functions below take any bytes, and belong to the thread that runs the request. What a helper prints on its standard
+ * output or error is kept by the library; the last line goes into the error sentence when the helper dies. */
+
 /* One request: json with "do", its arrays (borrowed). Ends with exactly one tc_serve_result or tc_serve_error; when it
  * returns without, an error is sent for it. C++ exceptions must not leave it. */
 typedef void tc_serve_function(void *context, tc_serve *serve, json_t *request, const tc_array *array, size_t n_array);
