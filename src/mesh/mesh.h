@@ -17,9 +17,9 @@ struct tc_mesh {
     int32_t *tet;       /* [n_tet + n_imaginary][4] */
     int32_t *neighbour; /* [n_tet + n_imaginary][4]; face f lies opposite vertex f; -1 outside; NULL before prepare */
 
-    double *scalar;     /* [n_vertex] (TC_POINT_DATA; 0 at Steiner points) or [n_tet] (TC_CELL_DATA) */
+    double *scalar; /* [n_vertex] (TC_POINT_DATA; 0 at Steiner points) or [n_tet] (TC_CELL_DATA) */
     tc_association association;
-    char *field_name;   /* NULL: no field */
+    char *field_name; /* NULL: no field */
 
     /* From the arrays that made the mesh to this order: -1 dropped. NULL before prepare (identity). */
     size_t n_vertex_source, n_tet_source;
@@ -27,12 +27,21 @@ struct tc_mesh {
     int32_t *tet_of_source;    /* [n_tet_source] */
 
     bool prepared;
+    tc_reentry asked;       /* by the last tc_mesh_prepare */
     uint64_t serial;        /* changes with geometry: a renderer uploads again when it does */
     uint64_t scalar_serial; /* changes with values */
     tc_mesh_report report;
 
-    tc_source *source;      /* what the file held; NULL for arrays */
-    void *source_memory;    /* everything source points into: one block, free() */
+    tc_source *source;   /* what the file held; NULL for arrays; a block of its own, free() */
+    void *source_memory; /* everything source points into: one block, free() */
 };
+
+/* Sets the report's scalar_range and nonfinite_scalars from the values; both ends are 0 when none is finite. */
+void tc_mesh_measure_scalar(tc_mesh *mesh);
+/* Sets the report's bounds (of finite vertices), longest_edge and volume from the real tets; an edge or volume that
+ * is not finite is left out. The sums do not depend on the number of threads. */
+void tc_mesh_measure(tc_mesh *mesh, int threads);
+/* A number that no other call of this process gives: for serial and scalar_serial. */
+uint64_t tc_mesh_new_serial(void);
 
 #endif
