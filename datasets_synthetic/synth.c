@@ -11,8 +11,16 @@
 /* One row a generator; the two tables below are in this order. */
 #define GENERATORS                                                                                                     \
     ROW(kuhn, "unit cube, Kuhn lattice with jittered vertices; convex", "linear: (x + 2 y + 3 z) / 6")                 \
+    ROW(ball, "ball of radius 1, octahedral lattice; convex", "r + 0.15 sin(6 z)")                                     \
     ROW(heatsink, "base plate with 48 fins, many re-entries", "temperature: cosh decay along the fins, warm spot")     \
-    ROW(comb, "spine with 40 teeth, 39 re-entries along it", "sin(3 x) cos(2 z) + y")
+    ROW(cylinder, "upright cylinder with a hole through it", "wave winding around the axis")                           \
+    ROW(bluntfin, "channel around a blunt fin, C-shaped grid", "density: bow shock, compression at the nose, wake")    \
+    ROW(comb, "spine with 40 teeth, 39 re-entries along it", "sin(3 x) cos(2 z) + y")                                  \
+    ROW(shells, "three nested shells around a cavity", "r + 0.3 x y")                                                  \
+    ROW(spiral, "rolled sheet of three turns", "r + 0.25 sin(4 z)")                                                    \
+    ROW(torusknot, "square tube along a trefoil knot", "sin(3 angle) + z")                                             \
+    ROW(tet, "one tet", "linear")                                                                                      \
+    ROW(two, "two tets that share a face", "linear")
 
 #define ROW(name, what, field) {#name, what, field},
 static const tc_synth_info info[] = {GENERATORS};
