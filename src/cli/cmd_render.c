@@ -1,0 +1,235 @@
+/* cmd_render.c: `tetcast render`: one image of a mesh. */
+#include "cli/render_report.h"
+#include "cli/render_view.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What the frames of one run are made with. */
+typedef struct tc_frames {
+    tc_renderer *renderer;
+    double *frame, *first_hit, *march, *readback; /* [repeat] each, one block */
+} tc_frames;
+
+static int tc_transfer_make(tc_render_run *run, tc_talk *talk)
+{
+    const tc_render_command *options = run->options;
+    const double *range = run->report.scalar_range;
+    tc_error err = {0};
+    tc_transfer_options make = {
+        .color_map = options->color_map,
+        .preset = options->preset,
+        .opacity = options->opacity,
+        .has_range = options->has_range,
+        .range = {options->range[0], options->range[1]},
+        .data_range = {range[0], range[1]},
+        .log = options->log,
+    };
+    if (!(range[0] <= range[1])) { /* nothing is finite: any function does, the picture is empty and says so */
+        make.data_range[0] = 0;
+        make.data_range[1] = 1;
+    }
+    tc_status status = tc_transfer_create(&run->tf, &make, &err);
+    return status ? tc_talk_status(talk, status, &err) : -1;
+}
+
+static void tc_render_set(tc_render_options *out, const tc_render_command *options)
+{
+    tc_render_defaults(out);
+    out->width = options->size.width;
+    out->height = options->size.height;
+    out->integrator = (tc_integrator)options->integrator;
+    if (options->table_size[0] > 0)
+        memcpy(out->table_size, options->table_size, sizeof out->table_size);
+    out->table_format = (tc_table_format)options->table_format;
+    out->unit_distance = options->unit_distance;
+    out->opacity_stop = options->opacity_stop;
+    out->steps_per_pass = options->steps_per_pass;
+    out->z_update_every = options->z_update_every;
+    out->count = false;
+}
+
+/* One frame into run->image. -1, or an exit code; a lost ray is an error after its numbers are kept in *stats. */
+static int tc_frame(tc_render_run *run, tc_render_stats *stats, tc_renderer *renderer, bool count, tc_talk *talk)
+{
+    tc_error err = {0};
+    tc_render_options render = run->render;
+    render.count = count;
+    tc_image_destroy(&run->image);
+    tc_status status =
+        tc_render(&run->image, stats, renderer, run->mesh, run->tf, &run->camera, &render, &talk->log, &err);
+    return status ? tc_talk_status(talk, status, &err) : -1;
+}
+
+/* The frames to time, after one to warm up when --repeat was given; then the counted one. */
+static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
+{
+    const tc_render_command *options = run->options;
+    size_t n = (size_t)options->repeat;
+    bool count = options->count || options->stats || options->has_verify;
+    int code = tc_frame(run, &run->first, frames->renderer, false, talk);
+    run->count = run->first;
+    if (code >= 0)
+        return code;
+    for (size_t i = 0; i < n; i++) {
+        tc_render_stats stats = run->first;
+        if (options->has_repeat) {
+            code = tc_frame(run, &stats, frames->renderer, false, talk);
+            run->count = stats;
+            if (code >= 0)
+                return code;
+            if (talk->log.progress)
+                talk->log.progress(talk->log.user, "frames", (double)(i + 1) / (double)n);
+        }
+        frames->frame[i] = stats.ms_frame;
+        frames->first_hit[i] = stats.ms_first_hit;
+        frames->march[i] = stats.ms_march;
+        frames->readback[i] = stats.ms_readback;
+    }
+    run->frames = (int)n;
+    tc_spread_of(&run->frame, frames->frame, n);
+    tc_spread_of(&run->first_hit, frames->first_hit, n);
+    tc_spread_of(&run->march, frames->march, n);
+    tc_spread_of(&run->readback, frames->readback, n);
+    if (!count || !strcmp(run->first.driver, "reference")) /* the reference counts in every frame */
+        return -1;
+    code = tc_frame(run, &run->count, frames->renderer, true, talk);
+    run->counted = code < 0;
+    return code;
+}
+
+static int tc_verify_run(tc_render_run *run, tc_talk *talk)
+{
+    tc_error err = {0};
+    tc_status status = tc_verify(&run->verify, run->image, (size_t)run->options->verify, run->options->seed, run->mesh,
+                                 run->tf, &run->camera, &run->render, &talk->log, &err);
+    if (status)
+        return tc_talk_status(talk, status, &err);
+    run->verified = true;
+    const tc_verify_result *v = &run->verify;
+    tc_talk_say(talk,
+                "verify: %zu pixels, max error %.3g, 99.9 %% below %.3g, mean %.3g (half an 8-bit step is 0.00196)",
+                v->pixels, v->max_abs_error, v->p999_abs_error, v->mean_abs_error);
+    if (v->ill_posed)
+        tc_talk_say(talk, "verify: %zu ill-posed rays are left out (worst error %.3g)", v->ill_posed,
+                    v->worst_error_ill_posed);
+    if (v->rays_lost > 0) {
+        tc_talk_error(talk, "%lld rays were lost, so the picture is not written; please report the mesh and the camera",
+                      (long long)v->rays_lost);
+        return TC_EXIT_FAILED;
+    }
+    return -1;
+}
+
+static int tc_picture_write(tc_render_run *run, tc_talk *talk, int argc, char **argv)
+{
+    const tc_render_command *options = run->options;
+    tc_error err = {0};
+    tc_meta meta;
+    tc_meta_make(&meta, run, argc, argv);
+    if (options->background.there)
+        tc_image_background(run->image, options->background.rgba);
+    double start = tc_talk_clock_s();
+    tc_status status = tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
+    run->ms_write = 1e3 * (tc_talk_clock_s() - start);
+    tc_meta_finish(&meta);
+    return status ? tc_talk_status(talk, status, &err) : -1;
+}
+
+static void tc_empty_warn(const tc_render_run *run, tc_talk *talk)
+{
+    char why[512];
+    if (tc_image_covered(run->image))
+        return;
+    tc_empty_reason(why, sizeof why, &run->report, tc_run_field(run), run->tf, &run->camera, &run->options->size);
+    tc_talk_always(talk, "the picture is empty: %s", why);
+}
+
+static int tc_stats_write(tc_render_run *run, tc_talk *talk)
+{
+    run->ms_total = 1e3 * (tc_talk_clock_s() - talk->start_s);
+    json_t *json = tc_render_stats_json(run);
+    if (!json) {
+        tc_talk_error(talk, "memory ran out");
+        return TC_EXIT_FAILED;
+    }
+    int code = tc_json_write(json, run->options->stats, talk);
+    json_decref(json);
+    return code;
+}
+
+static void tc_render_summary(const tc_render_run *run, tc_talk *talk)
+{
+    const tc_render_stats *stats = &run->first;
+    char frame[48] = "";
+    if (isfinite(run->frame.median))
+        snprintf(frame, sizeof frame, ", frame %.1f ms", run->frame.median);
+    tc_talk_say(talk, "%zu tets, %zu imaginary; %s%s%s, %s%s; wrote %s", run->report.n_tet, run->report.n_imaginary,
+                stats->context, *stats->context ? " " : "", stats->driver, stats->integrator, frame,
+                strcmp(run->options->output, "-") ? run->options->output : "stdout");
+}
+
+/* From a prepared mesh to files. */
+static int tc_render_do(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
+{
+    const tc_render_command *options = run->options;
+    tc_error err = {0};
+    tc_renderer_options make = {.gl = options->gl, .driver = options->driver, .threads = options->source.threads};
+    int code = tc_transfer_make(run, talk);
+    if (code < 0)
+        code = tc_render_camera(&run->camera, options, run->report.bounds, talk);
+    if (code >= 0)
+        return code;
+    tc_render_set(&run->render, options);
+    tc_status status = tc_renderer_create(&frames->renderer, &make, &talk->log, &err);
+    if (status)
+        return tc_talk_status(talk, status, &err);
+    code = tc_frames_run(run, frames, talk);
+    if (code < 0 && options->has_verify)
+        code = tc_verify_run(run, talk);
+    if (code < 0) {
+        tc_empty_warn(run, talk);
+        code = tc_picture_write(run, talk, argc, argv);
+    }
+    bool measured = code < 0 || run->count.rays_lost > 0; /* a lost ray is in the numbers, but makes no picture */
+    if (options->stats && measured) {
+        int wrote = tc_stats_write(run, talk);
+        code = code < 0 ? wrote : code;
+    }
+    if (code < 0)
+        tc_render_summary(run, talk);
+    return code;
+}
+
+int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, char **argv)
+{
+    tc_render_command options;
+    tc_frames frames = {0};
+    tc_render_run run = {.options = &options, .ms_read = NAN, .ms_write = NAN, .ms_total = NAN};
+    int code = tc_render_command_read(&options, talk, command, argc, argv);
+    if (code >= 0)
+        return code;
+    frames.frame = calloc((size_t)options.repeat, 4 * sizeof(double));
+    if (!frames.frame) {
+        tc_talk_error(talk, "memory ran out");
+        return TC_EXIT_FAILED;
+    }
+    frames.first_hit = frames.frame + options.repeat;
+    frames.march = frames.first_hit + options.repeat;
+    frames.readback = frames.march + options.repeat;
+    code = tc_input_load(&run.mesh, &run.ms_read, &options.source, options.input, talk);
+    if (code < 0)
+        code = tc_input_prepare(run.mesh, &options.source, talk);
+    if (code < 0) {
+        tc_mesh_get_report(&run.report, run.mesh);
+        code = tc_render_do(&run, &frames, talk, argc, argv);
+    }
+    tc_image_destroy(&run.image);
+    tc_renderer_destroy(&frames.renderer);
+    tc_transfer_destroy(&run.tf);
+    tc_mesh_destroy(&run.mesh);
+    free(frames.frame);
+    return code < 0 ? TC_EXIT_DONE : code;
+}

@@ -1,0 +1,247 @@
+/* render_options.c: the options of `render` as one table, and the checks that need no mesh. */
+#include "cli/render_options.h"
+#include "cli/commands.h"
+#include "cli/json_out.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#define TC_SIZE_MAX 32768
+#define AT(member) .at = offsetof(tc_render_command, member)
+#define HAS(member) .has = offsetof(tc_render_command, member) + 1
+
+static const tc_choice tc_model_choice[] = {
+    {"density-emitter", 0, false}, {"emission", 1, true}, {"absorption", 2, true}, {"mip", 3, true},
+    {"isosurface", 4, true},       {NULL, 0, false},
+};
+static const tc_choice tc_integrator_choice[] = {
+    {"auto", TC_INTEGRATOR_AUTO, false},
+    {"table", TC_INTEGRATOR_TABLE, false},
+    {"integral", TC_INTEGRATOR_INTEGRAL, false},
+    {"exact", -1, true},
+    {NULL, 0, false},
+};
+static const tc_choice tc_format_choice[] = {
+    {"auto", TC_TABLE_AUTO, false}, {"8", TC_TABLE_8, false}, {"16f", TC_TABLE_16F, false},
+    {"32f", TC_TABLE_32F, false},   {NULL, 0, false},
+};
+static const tc_choice tc_gl_choice[] = {
+    {"auto", 0, false},
+    {"osmesa", 1, false},
+    {"egl", 2, false},
+    {NULL, 0, false},
+};
+static const tc_choice tc_driver_choice[] = {
+    {"auto", 0, false}, {"pingpong", 1, false}, {"reference", 2, false}, {"compute", 3, true}, {NULL, 0, false},
+};
+static const tc_choice tc_auto_choice[] = {
+    {"auto", 0, false},
+    {NULL, 0, false},
+};
+static const tc_choice tc_lock_choice[] = {
+    {"auto", 0, false},
+    {"never", -1, false},
+    {NULL, 0, false},
+};
+
+static bool tc_size_parse(void *field, const char *text, char *why)
+{
+    int width, height;
+    char rest;
+    if (strspn(text, "0123456789x") != strlen(text) || sscanf(text, "%6dx%6d%c", &width, &height, &rest) != 2)
+        return false;
+    if (width < 1 || height < 1 || width > TC_SIZE_MAX || height > TC_SIZE_MAX) {
+        snprintf(why, 64, "each from 1 to %d", TC_SIZE_MAX);
+        return false;
+    }
+    *(tc_size *)field = (tc_size){width, height};
+    return true;
+}
+
+static bool tc_background_parse(void *field, const char *text, char *why)
+{
+    double value[4] = {0, 0, 0, 1};
+    int n = 0;
+    tc_background out = {.there = strcmp(text, "transparent") != 0};
+    if (out.there) {
+        if (!tc_parse_reals(value, &n, 4, text) || n < 3)
+            return false;
+        for (int i = 0; i < n; i++)
+            if (value[i] < 0 || value[i] > 1) {
+                snprintf(why, 64, "each from 0 to 1");
+                return false;
+            }
+        for (int i = 0; i < 3; i++)
+            out.rgba[i] = (float)(value[i] * value[3]);
+        out.rgba[3] = (float)value[3];
+    }
+    *(tc_background *)field = out;
+    return true;
+}
+
+static bool tc_table_size_parse(void *field, const char *text, char *why)
+{
+    int size[3];
+    char rest;
+    if (strspn(text, "0123456789,") != strlen(text) ||
+        sscanf(text, "%6d,%6d,%6d%c", &size[0], &size[1], &size[2], &rest) != 3)
+        return false;
+    for (int i = 0; i < 3; i++)
+        if (size[i] < 2 || size[i] > 2048) {
+            snprintf(why, 64, "each from 2 to 2048");
+            return false;
+        }
+    memcpy(field, size, sizeof size);
+    return true;
+}
+
+/* clang-format off */
+static const tc_option tc_render_option[] = {
+    {.help = "Data"},
+    TC_INPUT_FIELD_ROWS(tc_render_command, source),
+    TC_INPUT_GAP_ROW(tc_render_command, source),
+    {.help = "Picture"},
+    {"--output", 'o', "FILE", "png, exr, tif or jpg by extension; - for PNG on stdout; INPUT's name + .png here", TC_OPTION_TEXT, AT(output)},
+    {"--size", 0, "WxH", "pixels; 512x512", TC_OPTION_CUSTOM, AT(size), .parse = tc_size_parse},
+    {"--background", 0, "R,G,B[,A]|transparent", "0 to 1 each; transparent", TC_OPTION_CUSTOM, AT(background), .parse = tc_background_parse},
+    {.help = "Camera (default: the whole mesh in view from +z)"},
+    {"--camera-position", 0, "X,Y,Z", "the eye", TC_OPTION_REALS, AT(position), HAS(has_position), .n = 3},
+    {"--focal-point", 0, "X,Y,Z", "where it looks; the mesh's centre", TC_OPTION_REALS, AT(focal_point), HAS(has_focal_point), .n = 3},
+    {"--view-up", 0, "X,Y,Z", "what is up; 0,1,0", TC_OPTION_REALS, AT(view_up), HAS(has_view_up), .n = 3},
+    {"--view-angle", 0, "DEG", "vertical opening; 30", TC_OPTION_REAL, AT(view_angle), .low = 0, .high = 179.999, .open = true},
+    {"--parallel", 0, NULL, "parallel projection, the whole mesh in view", TC_OPTION_FLAG, AT(parallel)},
+    {"--parallel-scale", 0, "S", "parallel projection; half the view's height in the mesh's unit", TC_OPTION_REAL, AT(parallel_scale), HAS(has_parallel_scale), .low = 0, .high = 1e300, .open = true},
+    {"--azimuth", 0, "DEG", "then turn the eye about the view-up", TC_OPTION_REAL, AT(azimuth)},
+    {"--elevation", 0, "DEG", "then raise the eye", TC_OPTION_REAL, AT(elevation)},
+    {"--roll", 0, "DEG", "then turn about the view direction", TC_OPTION_REAL, AT(roll)},
+    {"--zoom", 0, "F", "then divide the view angle or scale; 1", TC_OPTION_REAL, AT(zoom), .low = 0, .high = 1e300, .open = true},
+    {.help = "Transfer function"},
+    {"--color-map", 0, "NAME|FILE", "a built-in map, or a ParaView preset (.json, .xml); Cool to Warm", TC_OPTION_TEXT, AT(color_map)},
+    {"--preset", 0, "NAME", "which map of a file that holds several; the first", TC_OPTION_TEXT, AT(preset)},
+    {"--opacity", 0, "FILE|S:A,…|linear|geom|sigmoid", "attenuation per unit distance; the preset's own, else linear from 0 to 0.3", TC_OPTION_TEXT, AT(opacity)},
+    {"--range", 0, "LO,HI", "scalars that the map spans; the field's range", TC_OPTION_REALS, AT(range), HAS(has_range), .n = 2},
+    {"--unit-distance", 0, "U", "length over which opacity acts; bounds diagonal / cbrt(cells)", TC_OPTION_REAL, AT(unit_distance), .low = 0, .high = 1e300, .open = true},
+    {"--log", 0, NULL, "lay the map over the logarithm of the scalar", TC_OPTION_FLAG, AT(log)},
+    {.help = "Method"},
+    {"--model", 0, "density-emitter", "how light and matter act", TC_OPTION_CHOICE, AT(model), .choice = tc_model_choice},
+    {"--integrator", 0, "auto|table|integral", "pre-integrated table of the 2003 paper, or running integrals", TC_OPTION_CHOICE, AT(integrator), .choice = tc_integrator_choice},
+    {"--table-size", 0, "S,S,L", "of the table: front and back scalar, length; 128,128,256", TC_OPTION_CUSTOM, AT(table_size), .parse = tc_table_size_parse},
+    {"--table-format", 0, "auto|8|16f|32f", "bits a channel of the table", TC_OPTION_CHOICE, AT(table_format), .choice = tc_format_choice},
+    {"--opacity-stop", 0, "A", "end a ray at this opacity; 1: never; 0.999", TC_OPTION_REAL, AT(opacity_stop), .low = 0, .high = 1, .open = true},
+    {"--gl", 0, "auto|osmesa|egl", "how to get an OpenGL context", TC_OPTION_CHOICE, AT(gl_choice), .choice = tc_gl_choice},
+    {"--driver", 0, "auto|pingpong|reference", "multi-pass fragment shader, or double precision on the CPU", TC_OPTION_CHOICE, AT(driver_choice), .choice = tc_driver_choice},
+    {"--steps-per-pass", 0, "K|auto", "cells a ray crosses in one pass", TC_OPTION_INT, AT(steps_per_pass), .low = 1, .high = 65536, .choice = tc_auto_choice},
+    {"--z-update-every", 0, "N|auto|never", "passes between locks of finished rays by the depth test", TC_OPTION_INT, AT(z_update_every), .low = 1, .high = 65536, .choice = tc_lock_choice},
+    TC_INPUT_THREADS_ROW(tc_render_command, source),
+    {.help = "Measuring"},
+    {"--verify", 0, "N", "trace N pixels again in double precision and report the error", TC_OPTION_U64, AT(verify), HAS(has_verify), .low = 1, .high = 1e18},
+    {"--repeat", 0, "N", "render N frames after one to warm up; times are medians", TC_OPTION_INT, AT(repeat), HAS(has_repeat), .low = 1, .high = 1000000},
+    {"--count", 0, NULL, "count steps and fragments in one extra frame; on with --stats and --verify", TC_OPTION_FLAG, AT(count)},
+    {"--stats", 0, "FILE", "write what was measured as JSON; - for stdout", TC_OPTION_TEXT, AT(stats)},
+    {"--seed", 0, "S", "of the pixels of --verify and of synthetic datasets; 1", TC_OPTION_U64, AT(seed)},
+    {"--iso", .kind = TC_OPTION_LATER},
+    {"--shade", .kind = TC_OPTION_LATER},
+    {"--clip", .kind = TC_OPTION_LATER},
+    {"--error", .kind = TC_OPTION_LATER},
+    {"--shell", .kind = TC_OPTION_LATER},
+};
+/* clang-format on */
+
+const tc_command tc_command_render = {
+    .name = "render",
+    .arguments = "INPUT",
+    .what = "One image of a mesh.",
+    .about = "INPUT is a file with three-dimensional cells (VTK, Exodus II, EnSight, OpenFOAM, CGNS, PLOT3D and more), "
+             "or synth:NAME[:CELLS], a synthetic dataset (tetcast synth --list).",
+    .option = tc_render_option,
+    .n_option = sizeof tc_render_option / sizeof *tc_render_option,
+    .least = 1,
+    .most = 1,
+    .run = tc_render_run_command,
+};
+
+/* ------------------------------------------------------------------------------------------------------- checks */
+
+static int tc_output_kind_check(const char *path, tc_talk *talk)
+{
+    static const char *const known[] = {".png", ".exr", ".tif", ".tiff", ".jpg", ".jpeg"};
+    const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
+    if (!strcmp(path, "-"))
+        return -1;
+    if (dot && (!slash || dot > slash))
+        for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+            if (!strcasecmp(dot, known[i]))
+                return -1;
+    tc_talk_error(talk, "%s: the extension tells the format; use .png, .exr, .tif or .jpg", path);
+    return TC_EXIT_USAGE;
+}
+
+static bool tc_equal3(const double *a, const double *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static int tc_render_check(const tc_render_command *out, tc_talk *talk)
+{
+    static const double zero[3];
+    int code = tc_input_check(&out->source, talk);
+    if (code >= 0)
+        return code;
+    if (out->has_range && !(out->range[0] < out->range[1])) {
+        tc_talk_error(talk, "--range takes LO,HI with LO below HI, not %g,%g", out->range[0], out->range[1]);
+        return TC_EXIT_USAGE;
+    }
+    if (out->has_view_up && tc_equal3(out->view_up, zero)) {
+        tc_talk_error(talk, "--view-up takes a direction, not 0,0,0");
+        return TC_EXIT_USAGE;
+    }
+    if (out->has_position && out->has_focal_point && tc_equal3(out->position, out->focal_point)) {
+        tc_talk_error(talk, "--camera-position and --focal-point are the same point, so there is no direction to look");
+        return TC_EXIT_USAGE;
+    }
+    if (out->preset && !out->color_map) {
+        tc_talk_error(talk, "--preset names a map of a file: give the file with --color-map");
+        return TC_EXIT_USAGE;
+    }
+    if (out->stats && !strcmp(out->stats, "-") && !strcmp(out->output, "-")) {
+        tc_talk_error(talk, "-o - and --stats - both want stdout: give one of them a file");
+        return TC_EXIT_USAGE;
+    }
+    code = tc_output_kind_check(out->output, talk);
+    if (code < 0)
+        code = tc_output_check(out->output, talk);
+    if (code < 0 && out->stats)
+        code = tc_output_check(out->stats, talk);
+    return code;
+}
+
+int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
+{
+    tc_render_options defaults;
+    int n_argument;
+    tc_render_defaults(&defaults);
+    *out = (tc_render_command){
+        .size = {512, 512},
+        .view_up = {0, 1, 0},
+        .view_angle = 30,
+        .zoom = 1,
+        .opacity_stop = 0.999,
+        .table_format = (int)defaults.table_format,
+        .repeat = 1,
+        .seed = 1,
+    };
+    int code = tc_options_parse(out, &out->input, &n_argument, talk, command, argc, argv);
+    if (code >= 0)
+        return code;
+    out->gl = tc_gl_choice[out->gl_choice].name;
+    out->driver = tc_driver_choice[out->driver_choice].name;
+    out->source.seed = out->seed;
+    if (!out->output) {
+        char stem[480];
+        tc_input_stem(stem, sizeof stem, out->input);
+        snprintf(out->default_output, sizeof out->default_output, "%s.png", stem);
+        out->output = out->default_output;
+    }
+    return tc_render_check(out, talk);
+}

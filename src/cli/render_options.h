@@ -1,0 +1,56 @@
+/* render_options.h: the command line of `render`, read and checked. */
+#ifndef TC_CLI_RENDER_OPTIONS_H
+#define TC_CLI_RENDER_OPTIONS_H
+
+#include "cli/input.h"
+
+typedef struct tc_size {
+    int width, height;
+} tc_size;
+
+typedef struct tc_background {
+    bool there;
+    float rgba[4]; /* premultiplied */
+} tc_background;
+
+typedef struct tc_render_command {
+    const char *input, *output; /* output NULL: default_output */
+    char default_output[512];
+    tc_input_options source;
+    tc_size size;
+    tc_background background;
+
+    double position[3], focal_point[3], view_up[3], view_angle, parallel_scale;
+    bool has_position, has_focal_point, has_view_up, has_parallel_scale, parallel;
+    double azimuth, elevation, roll, zoom;
+
+    const char *color_map, *preset, *opacity;
+    double range[2];
+    bool has_range, log;
+    double unit_distance;
+    int model;
+
+    int integrator; /* tc_integrator */
+    int table_size[3];
+    int table_format; /* tc_table_format */
+    double opacity_stop;
+
+    const char *gl, *driver;
+    int gl_choice, driver_choice;
+    int steps_per_pass, z_update_every;
+
+    uint64_t verify;
+    bool has_verify;
+    int repeat;
+    bool has_repeat, count;
+    const char *stats;
+    uint64_t seed;
+} tc_render_command;
+
+/* Defaults, parsing, checks that need no mesh. -1 to go on, else the exit code. */
+int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv);
+
+/* Runs the command; in cmd_render.c, while the table of its options is in render_options.c. */
+int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, char **argv);
+
+#endif

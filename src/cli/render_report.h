@@ -1,0 +1,51 @@
+/* render_report.h: what a render measured, as the --stats JSON and as the metadata of its image. */
+#ifndef TC_CLI_RENDER_REPORT_H
+#define TC_CLI_RENDER_REPORT_H
+
+#include "cli/json_out.h"
+#include "cli/render_options.h"
+
+/* A median with its extremes; NAN where not measured. */
+typedef struct tc_spread {
+    double median, low, high;
+} tc_spread;
+
+/* Median, least and greatest of the values that were measured (finite, not negative); value is sorted. */
+void tc_spread_of(tc_spread *out, double *value, size_t n);
+
+/* Everything that a run of `render` found out. */
+typedef struct tc_render_run {
+    const tc_render_command *options;
+    tc_mesh *mesh;
+    tc_mesh_report report;
+    tc_transfer *tf;
+    tc_camera camera;
+    tc_render_options render;
+    tc_image *image; /* before its background is laid under it */
+
+    double ms_read, ms_write, ms_total; /* NAN: not measured */
+    tc_render_stats first;              /* the first frame: it paid for packing, upload, table, programs */
+    tc_render_stats count;              /* of the counted frame where there is one, else of the last */
+    tc_spread frame, first_hit, march, readback;
+    int frames; /* timed ones */
+    tc_verify_result verify;
+    bool verified, counted;
+} tc_render_run;
+
+/* New reference, or NULL when memory ran out. */
+json_t *tc_render_stats_json(const tc_render_run *run);
+
+/* Texts for the image file: command, camera, transfer function, version, field, notes, verify. */
+#define TC_META_MAX 8
+typedef struct tc_meta {
+    tc_text_pair pair[TC_META_MAX];
+    char *owned[TC_META_MAX];
+    size_t n;
+} tc_meta;
+void tc_meta_make(tc_meta *out, const tc_render_run *run, int argc, char **argv);
+void tc_meta_finish(tc_meta *meta);
+
+/* The field's name as shown to people; never NULL. */
+const char *tc_run_field(const tc_render_run *run);
+
+#endif

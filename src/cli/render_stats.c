@@ -1,0 +1,168 @@
+/* render_stats.c: the --stats JSON of a render. Every number that was not measured is absent, never 0. */
+#include "cli/render_report.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int tc_double_order(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void tc_spread_of(tc_spread *out, double *value, size_t n)
+{
+    size_t good = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(value[i]) && value[i] >= 0)
+            value[good++] = value[i];
+    *out = (tc_spread){NAN, NAN, NAN};
+    if (!good)
+        return;
+    qsort(value, good, sizeof *value, tc_double_order);
+    out->low = value[0];
+    out->high = value[good - 1];
+    out->median = good % 2 ? value[good / 2] : 0.5 * (value[good / 2 - 1] + value[good / 2]);
+}
+
+static json_t *tc_gl_json(const tc_render_run *run)
+{
+    json_t *gl = json_object();
+    tc_json_text(gl, "context", run->first.context);
+    tc_json_text(gl, "renderer", run->first.gl_renderer);
+    tc_json_text(gl, "version", run->first.gl_version);
+    return gl;
+}
+
+static json_t *tc_mesh_json(const tc_render_run *run)
+{
+    json_t *mesh = json_object();
+    const tc_mesh_report *report = &run->report;
+    const tc_render_stats *stats = &run->first;
+    const tc_source *source = tc_mesh_source(run->mesh);
+    size_t dropped = report->dropped_degenerate + report->dropped_nonfinite + report->dropped_duplicate;
+    tc_json_count(mesh, "points", report->n_vertex);
+    tc_json_count(mesh, "tets", report->n_tet);
+    tc_json_count(mesh, "imaginary_tets", report->n_imaginary);
+    tc_json_count(mesh, "dropped_cells", dropped + (source ? source->dropped_cells : 0));
+    json_object_set_new(mesh, "convex", json_boolean(report->convex));
+    tc_json_text(mesh, "reentry", tc_reentry_name(report->reentry));
+    tc_json_text(mesh, "reentry_why", report->reentry_why);
+    tc_json_measured(mesh, "gpu_bytes", stats->gpu_bytes_mesh);
+    tc_json_measured(mesh, "gpu_bytes_per_tet", stats->gpu_bytes_mesh / (double)(report->n_tet + report->n_imaginary));
+    tc_json_measured(mesh, "gpu_bytes_other", stats->gpu_bytes_other);
+    tc_json_measured(mesh, "gpu_bytes_table", stats->gpu_bytes_table);
+    tc_json_measured(mesh, "gpu_bytes_state", stats->gpu_bytes_state);
+    return mesh;
+}
+
+static json_t *tc_time_json(const tc_render_run *run)
+{
+    json_t *time = json_object();
+    const tc_mesh_report *report = &run->report;
+    tc_json_measured(time, "read", run->ms_read);
+    tc_json_measured(time, "check", report->ms_check);
+    tc_json_measured(time, "adjacency", report->ms_adjacency);
+    tc_json_measured(time, "order", report->ms_order);
+    if (report->ms_convexify > 0) /* 0: there was nothing to fill, or peeling was asked for */
+        tc_json_measured(time, "convexify", report->ms_convexify);
+    tc_json_measured(time, "pack", run->first.ms_pack);
+    tc_json_measured(time, "upload", run->first.ms_upload);
+    tc_json_measured(time, "table", run->first.ms_table);
+    tc_json_measured(time, "compile", run->first.ms_compile);
+    tc_json_measured(time, "first_hit", run->first_hit.median);
+    tc_json_measured(time, "march", run->march.median);
+    tc_json_measured(time, "frame", run->frame.median);
+    if (run->options->has_repeat) {
+        tc_json_measured(time, "frame_min", run->frame.low);
+        tc_json_measured(time, "frame_max", run->frame.high);
+    }
+    tc_json_measured(time, "readback", run->readback.median);
+    tc_json_measured(time, "write", run->ms_write);
+    tc_json_measured(time, "total", run->ms_total);
+    return time;
+}
+
+static json_t *tc_march_json(const tc_render_run *run)
+{
+    json_t *march = json_object();
+    const tc_render_stats *stats = &run->count;
+    tc_json_text(march, "driver", stats->driver);
+    tc_json_text(march, "stepper", stats->stepper);
+    tc_json_text(march, "integrator", stats->integrator);
+    tc_json_text(march, "integrator_why", stats->integrator_why);
+    if (stats->steps_per_pass > 0)
+        tc_json_count(march, "steps_per_pass", (uint64_t)stats->steps_per_pass);
+    if (stats->z_update_every > 0)
+        tc_json_count(march, "z_update_every", (uint64_t)stats->z_update_every);
+    tc_json_measured_count(march, "passes", stats->passes);
+    tc_json_measured_count(march, "z_updates", stats->z_updates);
+    tc_json_measured_count(march, "layers", stats->layers);
+    tc_json_measured_count(march, "rays", stats->rays);
+    tc_json_measured_count(march, "rays_lost", stats->rays_lost);
+    tc_json_measured_count(march, "steps", stats->steps);
+    tc_json_measured_count(march, "steps_max", stats->steps_max);
+    if (stats->steps >= 0 && stats->rays > 0)
+        tc_json_real(march, "steps_per_ray", (double)stats->steps / (double)stats->rays);
+    if (stats->steps >= 0 && run->march.median > 0)
+        tc_json_real(march, "steps_per_second", (double)stats->steps / (1e-3 * run->march.median));
+    if (stats->n_fragments_per_pass > 0 && stats->fragments_per_pass) {
+        json_t *list = json_array();
+        for (size_t i = 0; i < stats->n_fragments_per_pass; i++)
+            json_array_append_new(list, json_integer((json_int_t)stats->fragments_per_pass[i]));
+        json_object_set_new(march, "fragments_per_pass", list);
+    }
+    return march;
+}
+
+static json_t *tc_verify_json(const tc_verify_result *verify, uint64_t seed)
+{
+    json_t *out = json_object();
+    tc_json_count(out, "pixels", verify->pixels);
+    tc_json_count(out, "ill_posed", verify->ill_posed);
+    tc_json_measured(out, "max_abs_error", verify->max_abs_error);
+    tc_json_measured(out, "p999_abs_error", verify->p999_abs_error);
+    tc_json_measured(out, "mean_abs_error", verify->mean_abs_error);
+    if (verify->ill_posed > 0)
+        tc_json_measured(out, "worst_error_ill_posed", verify->worst_error_ill_posed);
+    tc_json_measured_count(out, "rays_lost", verify->rays_lost);
+    tc_json_count(out, "seed", seed);
+    return out;
+}
+
+/* Puts part into object under key, or drops it when it has no entry. */
+static void tc_json_part(json_t *object, const char *key, json_t *part)
+{
+    if (json_object_size(part) > 0)
+        json_object_set_new(object, key, part);
+    else
+        json_decref(part);
+}
+
+json_t *tc_render_stats_json(const tc_render_run *run)
+{
+    json_t *out = json_object(), *image = json_object(), *memory = json_object();
+    size_t self = 0, helper = 0;
+    tc_memory_peak(&self, &helper);
+    tc_json_text(out, "tetcast", tc_version());
+    tc_json_text(out, "input", run->options->input);
+    tc_json_text(out, "field", tc_run_field(run));
+    tc_json_count(image, "width", (uint64_t)run->render.width);
+    tc_json_count(image, "height", (uint64_t)run->render.height);
+    tc_json_part(out, "image", image);
+    tc_json_part(out, "gl", tc_gl_json(run));
+    tc_json_part(out, "mesh", tc_mesh_json(run));
+    tc_json_part(out, "time_ms", tc_time_json(run));
+    tc_json_count(out, "frames", (uint64_t)run->frames);
+    tc_json_part(out, "march", tc_march_json(run));
+    json_object_set_new(out, "effects", json_pack("[s]", "density-emitter"));
+    if (run->verified)
+        tc_json_part(out, "verify", tc_verify_json(&run->verify, run->options->seed));
+    if (self > 0)
+        tc_json_count(memory, "peak_bytes", self);
+    if (helper > 0)
+        tc_json_count(memory, "helper_peak_bytes", helper);
+    tc_json_part(out, "memory", memory);
+    return out;
+}

@@ -1,0 +1,158 @@
+/* render_view.c: the camera of a command line, and why a picture is empty. */
+#include "cli/render_view.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+int tc_render_camera(tc_camera *out, const tc_render_command *options, const double bounds[6], tc_talk *talk)
+{
+    static const double from[3] = {0, 0, 1};
+    static const double default_up[3] = {0, 1, 0};
+    double aspect = (double)options->size.width / options->size.height;
+    tc_camera_reset(out, bounds, from, options->has_view_up ? options->view_up : default_up, options->view_angle,
+                    aspect);
+    if (options->has_position)
+        memcpy(out->position, options->position, sizeof out->position);
+    if (options->has_focal_point)
+        memcpy(out->focal_point, options->focal_point, sizeof out->focal_point);
+    if (options->has_view_up) /* reset may have replaced an up that is parallel to +z */
+        memcpy(out->view_up, options->view_up, sizeof out->view_up);
+    out->view_angle = options->view_angle;
+    out->parallel = options->parallel || options->has_parallel_scale;
+    if (options->has_parallel_scale)
+        out->parallel_scale = options->parallel_scale;
+    if (!memcmp(out->position, out->focal_point, sizeof out->position)) {
+        tc_talk_error(talk,
+                      "the camera's position %g,%g,%g is also its focal point (the mesh's centre unless "
+                      "--focal-point says otherwise), so there is no direction to look",
+                      out->position[0], out->position[1], out->position[2]);
+        return TC_EXIT_USAGE;
+    }
+    if (options->azimuth != 0)
+        tc_camera_azimuth(out, options->azimuth);
+    if (options->elevation != 0)
+        tc_camera_elevation(out, options->elevation);
+    if (options->roll != 0)
+        tc_camera_roll(out, options->roll);
+    if (options->zoom != 1)
+        tc_camera_zoom(out, options->zoom);
+    return -1;
+}
+
+bool tc_image_covered(const tc_image *image)
+{
+    size_t n = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < n; i++)
+        if (image->rgba[4 * i + 3] > 0)
+            return true;
+    return false;
+}
+
+/* Greatest attenuation that the function gives to scalars from lo to hi. */
+static double tc_opacity_peak(const tc_transfer *tf, double lo, double hi)
+{
+    size_t n = 0;
+    double peak = 0;
+    const tc_knot *knot = tc_transfer_knots(tf, &n);
+    if (n == 0)
+        return 0;
+    if (lo < knot[0].s)
+        peak = fmax(peak, knot[0].a);
+    if (hi > knot[n - 1].s)
+        peak = fmax(peak, knot[n - 1].a);
+    for (size_t i = 0; i < n; i++)
+        if (knot[i].s >= lo && knot[i].s <= hi)
+            peak = fmax(peak, knot[i].a);
+    for (size_t i = 0; i + 1 < n; i++) {
+        const tc_knot *a = &knot[i], *b = &knot[i + 1];
+        double end[2] = {lo, hi};
+        for (int e = 0; e < 2; e++)
+            if (a->s < end[e] && end[e] < b->s)
+                peak = fmax(peak, a->a + (b->a - a->a) * ((end[e] - a->s) / (b->s - a->s)));
+    }
+    return peak;
+}
+
+static double tc_dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void tc_cross(double *out, const double *a, const double *b)
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static void tc_unit(double *v)
+{
+    double length = sqrt(tc_dot(v, v));
+    for (int i = 0; i < 3 && length > 0; i++)
+        v[i] /= length;
+}
+
+/* Of the box's eight corners: how many lie behind the eye, and whether all lie beyond one side of the view. */
+static void tc_box_in_view(int *behind, bool *aside, const double bounds[6], const tc_camera *camera,
+                           const tc_size *size)
+{
+    double ahead[3], right[3], up[3];
+    int beyond[4] = {0};
+    for (int i = 0; i < 3; i++)
+        ahead[i] = camera->focal_point[i] - camera->position[i];
+    tc_unit(ahead);
+    tc_cross(right, ahead, camera->view_up);
+    tc_unit(right);
+    tc_cross(up, right, ahead);
+    double half = camera->parallel ? camera->parallel_scale : tan(camera->view_angle * acos(-1.0) / 360);
+    double wide = half * size->width / size->height;
+    *behind = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        double x[3];
+        for (int i = 0; i < 3; i++)
+            x[i] = bounds[2 * i + (corner >> i & 1)] - camera->position[i];
+        double z = tc_dot(x, ahead), h = camera->parallel ? 1 : z;
+        *behind += !camera->parallel && z <= 0;
+        beyond[0] += tc_dot(x, right) > wide * h;
+        beyond[1] += tc_dot(x, right) < -wide * h;
+        beyond[2] += tc_dot(x, up) > half * h;
+        beyond[3] += tc_dot(x, up) < -half * h;
+    }
+    *aside = beyond[0] == 8 || beyond[1] == 8 || beyond[2] == 8 || beyond[3] == 8;
+}
+
+void tc_empty_reason(char *why, size_t capacity, const tc_mesh_report *report, const char *field, const tc_transfer *tf,
+                     const tc_camera *camera, const tc_size *size)
+{
+    double lo = report->scalar_range[0], hi = report->scalar_range[1];
+    const double *b = report->bounds;
+    size_t n = 0;
+    int behind;
+    bool aside;
+    const char *name = field && *field ? field : "the field";
+    const tc_knot *knot = tc_transfer_knots(tf, &n);
+    tc_box_in_view(&behind, &aside, b, camera, size);
+    if (!(lo <= hi))
+        snprintf(why, capacity, "no value of %s is finite", name);
+    else if (tc_opacity_peak(tf, lo, hi) <= 0)
+        snprintf(why, capacity,
+                 "the opacity is 0 for every value of %s (%g to %g; the transfer function spans %g to %g); change "
+                 "--opacity or --range",
+                 name, lo, hi, n ? knot[0].s : 0.0, n ? knot[n - 1].s : 0.0);
+    else if (behind == 8)
+        snprintf(why, capacity,
+                 "the mesh (%g..%g, %g..%g, %g..%g) lies behind the camera at %g,%g,%g; change --camera-position or "
+                 "--focal-point",
+                 b[0], b[1], b[2], b[3], b[4], b[5], camera->position[0], camera->position[1], camera->position[2]);
+    else if (aside)
+        snprintf(why, capacity,
+                 "the mesh (%g..%g, %g..%g, %g..%g) lies outside the view; change the camera, or leave its options "
+                 "out to see the whole mesh",
+                 b[0], b[1], b[2], b[3], b[4], b[5]);
+    else
+        snprintf(why, capacity,
+                 "the mesh is within the view, so it is smaller than a pixel, lies between the rays, or is too thin "
+                 "for its opacity (%g at most); try --zoom, a larger --size or a smaller --unit-distance",
+                 tc_opacity_peak(tf, lo, hi));
+}
