@@ -14,7 +14,7 @@ static const double half_pi = 1.57079632679489661923;
 static void curve(double *inner, double *outer, double u)
 {
     if (u < side || u > 1 - side) {
-        double x = behind * (u < side ? side - u : u - (1 - side)) / side, y = u < side ? -1 : 1;
+        double x = behind * (1 - (u < side ? u : 1 - u) / side), y = u < side ? -1 : 1;
         inner[0] = outer[0] = x;
         inner[1] = radius * y;
         outer[1] = beside * y;
