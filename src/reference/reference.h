@@ -1,8 +1,14 @@
 /* reference.h: the double-precision ray caster on the CPU: the truth that the GPU is judged by.
  *
- * It shares no code with gpu/ and none of the mesh's preparation: no adjacency, no orientation, no order. A bounding
- * volume hierarchy over the real tets finds every tet a ray meets; each is clipped as an intersection of four half
- * spaces in double; the segments are sorted by entry depth and integrated exactly between the function's knots. */
+ * It shares no code with gpu/ and uses nothing of the mesh's preparation: no adjacency, no orientation, no order, no
+ * imaginary tets; a mesh need not be prepared. A bounding volume hierarchy over the real tets finds every tet a ray
+ * meets; each is judged alone from its four corners in double, with exact signs (trace.c); the parts are sorted by
+ * entry depth and integrated exactly between the function's knots (segment.c). Overlapping tets are composited in entry
+ * order.
+ *
+ * A tet with a scalar that is not finite at any corner (or its own, for cell data) is transparent: it adds to the
+ * length and to the segments but not to the colour. Tets that repeat a vertex, or have a corner that is missing or not
+ * finite, are left out. */
 #ifndef TC_REFERENCE_REFERENCE_H
 #define TC_REFERENCE_REFERENCE_H
 
@@ -12,31 +18,41 @@
 
 typedef struct tc_reference tc_reference;
 
-/* Builds the hierarchy over the mesh's real tets; mesh is borrowed for the reference's life. O(n log n). */
+/* Builds the hierarchy over the mesh's real tets; mesh is borrowed for the reference's life, its geometry may not
+ * change. Scalars are read when rays are traced: tc_mesh_set_scalar needs no new reference. threads: 0: all cores.
+ * Errors: TC_E_MEMORY; TC_E_ARG (no mesh, 2^31 tets). Cost: O(n log n) time, about 60 B/tet, at the peak 130. */
 tc_status tc_reference_create(tc_reference **out, const tc_mesh *mesh, int threads, tc_error *err);
 void tc_reference_destroy(tc_reference **reference);
 
 typedef struct tc_reference_ray {
-    double rgba[4];      /* premultiplied */
-    double length;       /* of all real segments in front of the eye */
+    double rgba[4]; /* premultiplied */
+    double length;  /* of all real segments in front of the eye */
     size_t segments;
 } tc_reference_ray;
 
 /* One ray: origin, unit direction, from t_min on (0 in perspective, -infinity in parallel).
- * unit: the unit distance U. opacity_stop is NOT applied: the truth has no early end. scratch per thread: worker index. */
+ * unit: the unit distance U. opacity_stop is NOT applied: the truth has no early end. worker: 0..255, as from
+ * tc_parallel_for; two threads may trace at once with different ones.
+ * Errors: TC_E_MEMORY; TC_E_ARG (worker, unit <= 0). Cost: O(log n + segments). */
 tc_status tc_reference_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
                              const double origin[3], const double direction[3], double t_min, int worker);
 
-/* Every pixel. Errors: TC_E_MEMORY, TC_E_CANCEL. */
+/* Every pixel. log: progress only, from the calling thread. Errors: TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
 tc_status tc_reference_render(tc_image *image, const tc_reference *reference, const tc_transfer *tf, double unit,
                               const tc_rays *rays, int threads, const tc_log *log, tc_error *err);
 
-/* Transmittance and premultiplied colour of one segment of optical length l (in unit distances) over which the scalar
- * runs linearly from s0 to s1: exact to 1e-10. out: r, g, b, alpha. */
+/* Premultiplied colour and opacity of one segment of length l (in unit distances) over which the scalar runs linearly
+ * from s0 to s1, both finite: exact to 1e-10. Where s0 = s1 lies on a step the right value holds. out: r, g, b, alpha.
+ */
 void tc_reference_segment(double out[4], const tc_transfer *tf, double s0, double s1, double l);
 
-/* Compares n pixels of image with the reference (hard_cases.md invariant 7 for ill-posed rays: those whose reference colour
- * moves by more than 1/1020 when the ray is shifted by 2^-22 of the diagonal in its frame or the data by 2^-22 of range). */
+/* Compares n pixels of image (drawn without repetition from seed; n >= all: all) with the reference, channel by
+ * channel, float against double. worst_x, worst_y: the image's column and row (row 0 at the top). rays_lost stays 0.
+ * Ill-posed rays are counted and left out of max, p999 and mean (hard_cases.md, invariant 7): their reference colour
+ * moves by more than 1/1020 in a channel when the ray is shifted by 2^-22 of the diagonal to any of four sides, or all
+ * scalars by 2^-22 of their range up or down. Only rays whose error exceeds 1/1020 are asked: others could not raise
+ * the maximum above it. A channel that is not finite counts as an error of FLT_MAX and is never ill-posed. Errors:
+ * TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
 tc_status tc_reference_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed,
                               const tc_reference *reference, const tc_transfer *tf, double unit, const tc_rays *rays,
                               int threads, const tc_log *log, tc_error *err);
