@@ -2,12 +2,14 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "mesh/adjacency.h"
+#include "mesh/boundary.h"
+#include "mesh/convexify.h"
 #include "mesh/mesh.h"
 #include "mesh/order.h"
 #include "mesh/repair.h"
 
+#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Links the repaired, ordered mesh; equal tets are found on the way and all but one of each dropped. */
 static tc_status link_mesh(tc_mesh *m, int threads, tc_error *err)
@@ -80,9 +82,45 @@ static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const
     next.serial = tc_mesh_new_serial();
     next.scalar_serial = tc_mesh_new_serial();
     next.prepared = true;
-    next.asked = TC_REENTRY_PEEL;
     tc_mesh_finish_arrays(mesh);
     *mesh = next;
+    return TC_OK;
+}
+
+/* Lets rays cross gaps in the way that was asked for. The mesh is linked; imaginary tets it has are taken away first.
+ * On failure it stays prepared, for peeling. */
+static tc_status fill_gaps(tc_mesh *m, const tc_prepare_options *o, const tc_log *log, tc_error *err)
+{
+    tc_mesh_report *r = &m->report;
+    tc_boundary boundary;
+    tc_error own = {0};
+    double start = tc_now_ms();
+    tc_mesh_strip(m);
+    r->reentry = m->asked = TC_REENTRY_PEEL;
+    r->reentry_why[0] = 0;
+    m->serial = tc_mesh_new_serial();
+    tc_status status = tc_boundary_build(&boundary, m, m->n_tet, err);
+    if (status != TC_OK)
+        return status;
+    r->convex = tc_boundary_is_convex(&boundary, m->vertex, tc_boundary_rounding(r->bounds));
+    if (o->reentry != TC_REENTRY_PEEL && !r->convex) {
+        tc_progress(log, "filling gaps", -1);
+        status = tc_mesh_convexify(m, &boundary, o->convexify_limit_s, o->threads, log, &own);
+    }
+    tc_boundary_finish(&boundary);
+    r->ms_convexify = tc_now_ms() - start;
+    if (status != TC_OK) {
+        snprintf(r->reentry_why, sizeof r->reentry_why, "%.*s", (int)sizeof r->reentry_why - 1, own.text);
+        if (o->reentry == TC_REENTRY_CONVEXIFY || status == TC_E_MEMORY)
+            return tc_fail(err, status,
+                           "the gaps of this mesh cannot be filled with imaginary cells: %s; use re-entry by "
+                           "depth peeling",
+                           own.text);
+        tc_say(log, TC_INFO, "re-entry by depth peeling is used: %s", own.text);
+    } else if (o->reentry != TC_REENTRY_PEEL) {
+        r->reentry = TC_REENTRY_CONVEXIFY;
+    }
+    m->asked = o->reentry;
     return TC_OK;
 }
 
@@ -92,9 +130,14 @@ tc_status tc_mesh_prepare(tc_mesh *mesh, const tc_prepare_options *options, cons
         return tc_fail(err, TC_E_ARG, "tc_mesh_prepare: mesh is NULL");
     tc_prepare_options none = {0};
     const tc_prepare_options *o = options ? options : &none;
-    if (o->reentry < TC_REENTRY_AUTO || o->reentry > TC_REENTRY_PEEL)
+    if ((int)o->reentry < TC_REENTRY_AUTO || (int)o->reentry > TC_REENTRY_PEEL)
         return tc_fail(err, TC_E_ARG, "tc_mesh_prepare: there is no reentry %d", (int)o->reentry);
-    if (!mesh->prepared)
-        return prepare_first(mesh, o, log, err);
-    return TC_OK;
+    if (mesh->prepared && mesh->asked == o->reentry)
+        return TC_OK;
+    if (!mesh->prepared) {
+        tc_status status = prepare_first(mesh, o, log, err);
+        if (status != TC_OK)
+            return status;
+    }
+    return fill_gaps(mesh, o, log, err);
 }

@@ -1,0 +1,22 @@
+/* convexify.h: imaginary tets between a mesh and its convex hull, so that rays cross gaps without leaving the mesh. */
+#ifndef TC_MESH_CONVEXIFY_H
+#define TC_MESH_CONVEXIFY_H
+
+#include "mesh/boundary.h"
+
+/* Adds imaginary tets (and Steiner points, which only they use) to a linked mesh that has none, by the helper
+ * tetcast-convexify.
+ *   boundary: of the real tets, borrowed
+ *   limit_s:  time limit of the helper; 0: 120 s
+ * The result is accepted only if TetGen left the boundary's points as they were, every boundary face has an imaginary
+ * neighbour or lies on the outside, all faces link, the outside is one closed convex surface, and real and imaginary
+ * volumes add up to the hull's that TetGen made. Otherwise the mesh stays as it is.
+ * Errors: TC_E_WORKER (the helper is missing, died or took too long), TC_E_MESH (TetGen refused the boundary, or its
+ * result was not accepted), TC_E_MEMORY. */
+tc_status tc_mesh_convexify(tc_mesh *mesh, const tc_boundary *boundary, double limit_s, int threads, const tc_log *log,
+                            tc_error *err);
+
+/* Takes the imaginary tets and Steiner points away again. */
+void tc_mesh_strip(tc_mesh *mesh);
+
+#endif
