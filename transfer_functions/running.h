@@ -3,9 +3,9 @@
  * Over x = (s - span[0]) / (span[1] - span[0]) in [0, 1] and nodes x_i = i / (n-1):
  *   point[i]      = (tau r, tau g, tau b, tau) at x_i (at a step: the mean of both sides)
  *   cumulative[i] = integral from 0 to x_i of (tau r, tau g, tau b, tau) dx, MINUS mean * x_i: what is left after the
- *                   mean slope is taken out, so that a constant function has cumulative = 0 exactly and float keeps digits.
- * The mean of the function over [x0, x1] is  mean + (cumulative(x1) - cumulative(x0)) / (x1 - x0). Both arrays are exact
- * at the nodes (closed form per linear piece, double) and rounded to float once. */
+ *                   mean slope is taken out, so that a constant function has cumulative = 0 exactly and float keeps
+ * digits. The mean of the function over [x0, x1] is  mean + (cumulative(x1) - cumulative(x0)) / (x1 - x0). Both arrays
+ * are exact at the nodes (closed form per linear piece, double) and rounded to float once. */
 #ifndef TC_TRANSFER_FUNCTIONS_RUNNING_H
 #define TC_TRANSFER_FUNCTIONS_RUNNING_H
 

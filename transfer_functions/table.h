@@ -6,16 +6,16 @@
 #include "transfer_functions/transfer.h"
 
 typedef struct tc_table_options {
-    int size[3];           /* entries along s_front, s_back, length; each >= 2 */
-    double span[2];        /* scalar at the first and last s entry (both ends are entries) */
-    double length_max;     /* length of the last entry, in unit distances: a * length is optical depth */
-    tc_table_format format;/* 8, 16F or 32F (AUTO: 16F) */
-    bool entry_by_entry;   /* each entry integrated on its own, same samples per delta-l: the slow way, for comparison */
-    int threads;           /* 0: all cores */
+    int size[3];            /* entries along s_front, s_back, length; each >= 2 */
+    double span[2];         /* scalar at the first and last s entry (both ends are entries) */
+    double length_max;      /* length of the last entry, in unit distances: a * length is optical depth */
+    tc_table_format format; /* 8, 16F or 32F (AUTO: 16F) */
+    bool entry_by_entry; /* each entry integrated on its own, same samples per delta-l: the slow way, for comparison */
+    int threads;         /* 0: all cores */
 } tc_table_options;
 
-/* rgba [size[2]][size[1]][size[0]][4] in the format's type (uint8_t, IEEE half as uint16_t, float): associated colour and
- * opacity; entry k along length is length_max * k / (size[2]-1), so slice 0 is zero. s_front runs fastest. */
+/* rgba [size[2]][size[1]][size[0]][4] in the format's type (uint8_t, IEEE half as uint16_t, float): associated colour
+ * and opacity; entry k along length is length_max * k / (size[2]-1), so slice 0 is zero. s_front runs fastest. */
 typedef struct tc_table {
     void *rgba;
     size_t bytes;

@@ -11,7 +11,7 @@
 
 struct tc_transfer {
     size_t n;
-    tc_knot *knot;   /* [n], n >= 1, s non-decreasing; outside the end knots' values hold */
+    tc_knot *knot; /* [n], n >= 1, s non-decreasing; outside the end knots' values hold */
     char *name;
     double nan_color[4];
     uint64_t serial; /* changes when the knots do */
