@@ -20,9 +20,9 @@ typedef struct tc_compare_command {
 } tc_compare_command;
 
 static const tc_option tc_compare_option[] = {
-    {"--warn", 0, "E", "the images are the same up to this largest difference of a channel; 1/255 = 0.00392157",
+    {"--warn", 0, "E", "the images are the same up to this largest difference of a channel; default 1/255",
      TC_OPTION_REAL, .at = offsetof(tc_compare_command, warn), .low = 0, .high = 1e300},
-    {"--fail", 0, "E", "and differ above this one; between them it is a warning; 4/255 = 0.0156863", TC_OPTION_REAL,
+    {"--fail", 0, "E", "and differ above this one; between them it is a warning; default 4/255", TC_OPTION_REAL,
      .at = offsetof(tc_compare_command, fail), .low = 0, .high = 1e300},
     {"--json", 0, NULL, "the figures as JSON", TC_OPTION_FLAG, .at = offsetof(tc_compare_command, json)},
 };

@@ -14,7 +14,8 @@ static const tc_option tc_info_option[] = {
     TC_INPUT_FIELD_ROWS(tc_info_command, source),
     TC_INPUT_GAP_ROW(tc_info_command, source),
     TC_INPUT_THREADS_ROW(tc_info_command, source),
-    {"--seed", 0, "S", "of a synthetic dataset; 1", TC_OPTION_U64, .at = TC_INPUT_AT(tc_info_command, source, seed)},
+    {"--seed", 0, "S", "of a synthetic dataset; default 1", TC_OPTION_U64,
+     .at = TC_INPUT_AT(tc_info_command, source, seed)},
     {"--json", 0, NULL, "as JSON", TC_OPTION_FLAG, .at = offsetof(tc_info_command, json)},
 };
 

@@ -166,9 +166,9 @@ static void tc_render_summary(const tc_render_run *run, tc_talk *talk)
     char frame[48] = "";
     if (isfinite(run->frame.median))
         snprintf(frame, sizeof frame, ", frame %.1f ms", run->frame.median);
-    tc_talk_say(talk, "%zu tets, %zu imaginary; %s%s%s, %s%s; wrote %s", run->report.n_tet, run->report.n_imaginary,
-                stats->context, *stats->context ? " " : "", stats->driver, stats->integrator, frame,
-                strcmp(run->options->output, "-") ? run->options->output : "stdout");
+    tc_talk_say(talk, "%zu tets, %zu imaginary; %s%s%s%s%s%s; wrote %s", run->report.n_tet, run->report.n_imaginary,
+                stats->context, *stats->context ? " " : "", stats->driver, *stats->integrator ? ", " : "",
+                stats->integrator, frame, strcmp(run->options->output, "-") ? run->options->output : "stdout");
 }
 
 /* From a prepared mesh to files. */

@@ -15,9 +15,9 @@ typedef struct tc_synth_command {
 
 static const tc_option tc_synth_option[] = {
     {"--output", 'o', "FILE.vtu", "where to write it", TC_OPTION_TEXT, .at = offsetof(tc_synth_command, output)},
-    {"--cells", 0, "N", "about this many tetrahedra; the dataset's own number", TC_OPTION_U64,
+    {"--cells", 0, "N", "about this many tetrahedra; default the dataset's own number", TC_OPTION_U64,
      .at = offsetof(tc_synth_command, cells), .low = 1, .high = 1e9},
-    {"--seed", 0, "S", "of what is random in it; 1", TC_OPTION_U64, .at = offsetof(tc_synth_command, seed)},
+    {"--seed", 0, "S", "of what is random in it; default 1", TC_OPTION_U64, .at = offsetof(tc_synth_command, seed)},
     {"--list", 0, NULL, "name the datasets and their fields", TC_OPTION_FLAG, .at = offsetof(tc_synth_command, list)},
     {"--json", 0, NULL, "the list as JSON", TC_OPTION_FLAG, .at = offsetof(tc_synth_command, json)},
 };

@@ -214,7 +214,7 @@ static json_t *tc_report_json(const tc_info *info)
     json_object_set_new(json, "convex", json_boolean(report->convex));
     tc_json_text(json, "reentry", tc_reentry_name(report->reentry));
     tc_json_text(json, "reentry_why", report->reentry_why);
-    tc_json_real(json, "gpu_bytes", tc_info_gpu_bytes(report));
+    tc_json_count(json, "gpu_bytes", (uint64_t)tc_info_gpu_bytes(report));
     for (size_t i = 0; i < TC_N_DEFECT; i++)
         tc_json_count(defects, tc_defect_list[i].key, tc_defect_count(report, i));
     json_object_set_new(json, "defects", defects);

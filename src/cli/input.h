@@ -18,7 +18,7 @@ typedef struct tc_input_options {
 /* clang-format off */
 #define TC_INPUT_AT(type, member, what) (offsetof(type, member) + offsetof(tc_input_options, what))
 #define TC_INPUT_FIELD_ROWS(type, member)                                                                              \
-    {"--field", 0, "NAME[:COMPONENT|:magnitude]", "array to show; the first there is", TC_OPTION_TEXT,                 \
+    {"--field", 0, "NAME[:COMPONENT|:magnitude]", "array to show; default the first there is", TC_OPTION_TEXT,                 \
      .at = TC_INPUT_AT(type, member, field)},                                                                          \
     {"--cell-data", 0, NULL, "the array is per cell", TC_OPTION_FLAG, .at = TC_INPUT_AT(type, member, cell_data)},     \
     {"--point-data", 0, NULL, "the array is per point; tried first when neither is given", TC_OPTION_FLAG,             \
@@ -27,13 +27,13 @@ typedef struct tc_input_options {
      .has = TC_INPUT_AT(type, member, has_time) + 1},                                                                  \
     {"--step", 0, "N", "the step by number, from 0; negative counts from the end", TC_OPTION_INT,                      \
      .at = TC_INPUT_AT(type, member, step), .has = TC_INPUT_AT(type, member, has_step) + 1},                           \
-    {"--refine", 0, "N", "split curved (quadratic) cells N times before they become linear; 0", TC_OPTION_INT,         \
+    {"--refine", 0, "N", "split curved (quadratic) cells N times before they become linear; default 0", TC_OPTION_INT,         \
      .at = TC_INPUT_AT(type, member, refine), .low = 0, .high = 6}
 #define TC_INPUT_GAP_ROW(type, member)                                                                                 \
     {"--reentry", 0, "auto|convexify|peel", "how rays cross gaps: fill them with cells that only lead on, or peel",    \
      TC_OPTION_CHOICE, .at = TC_INPUT_AT(type, member, reentry), .choice = tc_reentry_choice}
 #define TC_INPUT_THREADS_ROW(type, member)                                                                             \
-    {"--threads", 0, "N", "CPU threads; all cores", TC_OPTION_INT, .at = TC_INPUT_AT(type, member, threads), .low = 1, \
+    {"--threads", 0, "N", "CPU threads; default all cores", TC_OPTION_INT, .at = TC_INPUT_AT(type, member, threads), .low = 1, \
      .high = 4096}
 /* clang-format on */
 extern const tc_choice tc_reentry_choice[];

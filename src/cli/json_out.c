@@ -114,7 +114,7 @@ int tc_json_write(const json_t *json, const char *path, tc_talk *talk)
 {
     struct stat info;
     if (!strcmp(path, "-"))
-        return tc_json_put(json, stdout, false) ? -1 : tc_write_failed(talk, "stdout");
+        return tc_json_put(json, stdout, false) ? -1 : TC_EXIT_FAILED; /* tc_talk_finish says why */
     if (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)) {
         FILE *device = fopen(path, "w"); /* a device or a pipe is written to, never replaced */
         if (!device)

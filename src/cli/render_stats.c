@@ -35,6 +35,12 @@ static json_t *tc_gl_json(const tc_render_run *run)
     return gl;
 }
 
+static void tc_json_bytes(json_t *object, const char *key, double value)
+{
+    if (value >= 0 && isfinite(value))
+        tc_json_count(object, key, (uint64_t)value);
+}
+
 static json_t *tc_mesh_json(const tc_render_run *run)
 {
     json_t *mesh = json_object();
@@ -49,11 +55,11 @@ static json_t *tc_mesh_json(const tc_render_run *run)
     json_object_set_new(mesh, "convex", json_boolean(report->convex));
     tc_json_text(mesh, "reentry", tc_reentry_name(report->reentry));
     tc_json_text(mesh, "reentry_why", report->reentry_why);
-    tc_json_measured(mesh, "gpu_bytes", stats->gpu_bytes_mesh);
+    tc_json_bytes(mesh, "gpu_bytes", stats->gpu_bytes_mesh);
     tc_json_measured(mesh, "gpu_bytes_per_tet", stats->gpu_bytes_mesh / (double)(report->n_tet + report->n_imaginary));
-    tc_json_measured(mesh, "gpu_bytes_other", stats->gpu_bytes_other);
-    tc_json_measured(mesh, "gpu_bytes_table", stats->gpu_bytes_table);
-    tc_json_measured(mesh, "gpu_bytes_state", stats->gpu_bytes_state);
+    tc_json_bytes(mesh, "gpu_bytes_other", stats->gpu_bytes_other);
+    tc_json_bytes(mesh, "gpu_bytes_table", stats->gpu_bytes_table);
+    tc_json_bytes(mesh, "gpu_bytes_state", stats->gpu_bytes_state);
     return mesh;
 }
 

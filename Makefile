@@ -1,0 +1,76 @@
+# The front door: make builds, make test tests, make demo shows. CMake does the work.
+#
+#   make            build into build/; the program is build/tetcast
+#   make demo       render the heat sink to build/demo.png
+#   make test       build everything and run all tests
+#   make bench      measure, side by side with VTK
+#   make docs       manual pages as HTML in build/docs
+#   make install    to PREFIX (/usr/local), below DESTDIR
+#   make clean
+#
+# BUILD_TYPE=Debug, JOBS=4, WERROR=ON and CMAKE_ARGS=… are passed on. PACKAGES=no installs no Debian packages.
+
+BUILD_TYPE ?= Release
+JOBS       ?= $(shell nproc 2>/dev/null || echo 2)
+WERROR     ?= OFF
+PREFIX     ?= /usr/local
+PACKAGES   ?= yes
+CMAKE_ARGS ?=
+BENCH_ARGS ?=
+
+BUILD := build
+
+BASE_PACKAGES := gcc g++ libc6-dev cmake ninja-build pkg-config libvtk9-dev libtet1.5-dev libosmesa6-dev libegl-dev \
+	libgl-dev libegl1 libgl1-mesa-dri libopenimageio-dev libglm-dev libjansson-dev libcmocka-dev
+BENCH_PACKAGES := python3 python3-vtk9 python3-numpy xvfb xauth
+DOCS_PACKAGES := groff
+
+CONFIGURE = cmake -S . -B $(BUILD) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-G Ninja) \
+	-DCMAKE_BUILD_TYPE=$(BUILD_TYPE) -DTC_WERROR=$(WERROR) -DCMAKE_INSTALL_PREFIX=$(PREFIX) $(CMAKE_ARGS)
+ifeq ($(PACKAGES),yes)
+packages = sh cmake/packages.sh $(1)
+else
+packages = :
+endif
+
+.PHONY: all configure demo test bench docs install clean
+.DEFAULT_GOAL := all
+
+all: configure
+	cmake --build $(BUILD) -j $(JOBS)
+
+# Configuring again takes a moment, so it is done only when a setting differs from the last time.
+configure:
+	@$(call packages,$(BASE_PACKAGES))
+	@mkdir -p $(BUILD)
+	@settings='$(BUILD_TYPE) $(WERROR) $(PREFIX) $(CMAKE_ARGS)'; \
+	if [ "$$settings" != "$$(cat $(BUILD)/.settings 2>/dev/null)" ] || [ ! -f $(BUILD)/CMakeCache.txt ]; then \
+		$(CONFIGURE) && echo "$$settings" >$(BUILD)/.settings; \
+	fi
+
+demo: all
+	$(BUILD)/tetcast render synth:heatsink --size 1024x768 --azimuth 35 --elevation 25 --background 1,1,1 \
+		--unit-distance 0.05 -o $(BUILD)/demo.png
+	@echo "The picture is $(BUILD)/demo.png"
+
+test: configure
+	cmake --build $(BUILD) -j $(JOBS) --target all --target all_tests
+	cd $(BUILD) && ctest --output-on-failure -j 2
+
+bench: all
+	@$(call packages,$(BENCH_PACKAGES))
+	/usr/bin/python3 tests/bench/bench.py $(BENCH_ARGS)
+
+docs:
+	@$(call packages,$(DOCS_PACKAGES))
+	@mkdir -p $(BUILD)/docs
+	@for page in docs/man/*.1; do \
+		html=$(BUILD)/docs/$$(basename $$page .1).html; \
+		groff -k -man -Thtml -P-l $$page >$$html.part && mv $$html.part $$html && echo $$html || exit 1; \
+	done
+
+install: all
+	DESTDIR="$(DESTDIR)" cmake --install $(BUILD)
+
+clean:
+	rm -rf $(BUILD)
