@@ -2,6 +2,10 @@
 # programs in ../libexec/tetcast, so the whole tree may be moved.
 include(CMakePackageConfigHelpers)
 
+if(NOT TARGET tetcast_lib)
+  return()
+endif()
+
 set(tc_helpers)
 foreach(helper tetcast-read tetcast-convexify tetcast-image)
   if(TARGET ${helper})
