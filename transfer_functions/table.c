@@ -109,7 +109,7 @@ static void blend_run(float *restrict out, const float *restrict rear, const flo
 {
     const size_t g = stride, b = 2 * stride, a = 3 * stride;
     for (int j = 0; j < count; j++) {
-        const float t = weight - step * (float)j;
+        const float place = weight - step * (float)j, t = place > 0 ? place : 0;
         const float front_r = front0[j] + t * (front1[j] - front0[j]);
         const float front_g = front0[g + j] + t * (front1[g + j] - front0[g + j]);
         const float front_b = front0[b + j] + t * (front1[b + j] - front0[b + j]);
