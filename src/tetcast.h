@@ -135,14 +135,15 @@ typedef struct tc_read_options {
     int step;                   /* 0-based, negative from the end; has_step */
     int refine;                 /* splits each curved (quadratic) simplex 1:8 this many times first; 0 none */
     double idle_limit_s;        /* the reader is stopped after this long without progress; 0: 60 s */
+    bool all_ranges;            /* read every array for its range, not only the one taken; always so without field */
 } tc_read_options;
 
 /* One array a file offers. */
 typedef struct tc_array_info {
     const char *name;
     tc_association association;
-    int components;
-    double lo, hi; /* finite range; of the magnitude where components > 1; lo > hi when nothing is finite */
+    int components; /* 0: not read */
+    double lo, hi; /* finite range; of the magnitude where components > 1; lo > hi when nothing is finite; NaN: not read */
 } tc_array_info;
 
 /* One kind of cell a file holds. */

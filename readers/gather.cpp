@@ -1,0 +1,172 @@
+// gather.cpp: all blocks that a reader gave, as one list of points and cells.
+#include "gather.h"
+
+#include "cell_types.h"
+
+#include <vtkCellArray.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <cstring>
+
+namespace tetcast
+{
+
+static void add_leaf(Gathered &out, vtkDataObject *object)
+{
+    vtkDataSet *data = vtkDataSet::SafeDownCast(object);
+    if (!data || data->GetNumberOfPoints() == 0)
+        return;
+    out.leaf.push_back({data, out.n_point, out.n_cell});
+    out.n_point += (size_t)data->GetNumberOfPoints();
+    out.n_cell += (size_t)data->GetNumberOfCells();
+}
+
+void gather_leaves(Gathered &out, vtkDataObject *data)
+{
+    vtkCompositeDataSet *composite = vtkCompositeDataSet::SafeDownCast(data);
+    if (!composite) {
+        add_leaf(out, data);
+        return;
+    }
+    vtkSmartPointer<vtkCompositeDataIterator> it;
+    it.TakeReference(composite->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+        add_leaf(out, it->GetCurrentDataObject());
+}
+
+bool is_ghost(const Leaf &leaf, size_t cell)
+{
+    vtkUnsignedCharArray *ghost = leaf.data->GetCellGhostArray();
+    if (!ghost || (size_t)ghost->GetNumberOfTuples() <= cell)
+        return false;
+    const int skip = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
+    return (ghost->GetValue((vtkIdType)cell) & skip) != 0;
+}
+
+static void check_cell(const std::string &path, size_t cell, const CellType &type, vtkIdType n, const vtkIdType *id,
+                       size_t n_point)
+{
+    if (type.dimension == 3 && n < corner_count(type.shape))
+        throw Refusal(path + ": cell " + std::to_string(cell) + " is a " + type.name + " with " + std::to_string(n) +
+                      " points instead of " + std::to_string(corner_count(type.shape)) + "; the file is damaged");
+    for (vtkIdType i = 0; i < n; i++)
+        if (id[i] < 0 || (size_t)id[i] >= n_point)
+            throw Refusal(path + ": cell " + std::to_string(cell) + " refers to point " + std::to_string(id[i]) +
+                          ", but there are " + std::to_string(n_point) + " points; the file is damaged");
+}
+
+// The lists of an unstructured grid must agree with each other before any cell is asked for.
+static void check_lists(const std::string &path, vtkUnstructuredGrid *grid)
+{
+    vtkCellArray *cells = grid->GetCells();
+    if (!cells)
+        return;
+    const vtkIdType n = cells->GetNumberOfCells();
+    if (!grid->GetCellTypesArray() || grid->GetCellTypesArray()->GetNumberOfTuples() < n)
+        throw Refusal(path + " has fewer cell types than cells; the file is damaged");
+    vtkDataArray *offset = cells->GetOffsetsArray();
+    const double size = (double)cells->GetConnectivityArray()->GetNumberOfTuples();
+    double last = 0;
+    for (vtkIdType i = 0; i <= n; i++) {
+        const double at = offset->GetComponent(i, 0);
+        if (at < last || at > size)
+            throw Refusal(path + ": the offset of cell " + std::to_string(i) +
+                          " is out of order or past the end of the "
+                          "connectivity; the file is damaged");
+        last = at;
+    }
+}
+
+void count_cells(Gathered &out, const std::string &path)
+{
+    for (const Leaf &leaf : out.leaf) {
+        vtkUnstructuredGrid *grid = vtkUnstructuredGrid::SafeDownCast(leaf.data);
+        const size_t n_point = (size_t)leaf.data->GetNumberOfPoints();
+        vtkNew<vtkIdList> list;
+        if (grid)
+            check_lists(path, grid);
+        const size_t n = (size_t)leaf.data->GetNumberOfCells();
+        const bool explicit_cells = grid || leaf.data->IsA("vtkPolyData");
+        for (size_t c = 0; c < n; c++) {
+            if (is_ghost(leaf, c)) {
+                out.n_ghost++;
+                continue;
+            }
+            const int vtk = leaf.data->GetCellType((vtkIdType)c);
+            const CellType &type = cell_type(vtk);
+            if (vtk == 0 && !explicit_cells) { // a blanked cell of a structured grid
+                out.n_ghost++;
+                continue;
+            }
+            out.by_type[vtk]++;
+            out.n_solid += type.dimension == 3;
+            out.n_curved += type.dimension == 3 && type.curved;
+            if (grid) {
+                vtkIdType m;
+                const vtkIdType *id;
+                grid->GetCells()->GetCellAtId((vtkIdType)c, m, id);
+                check_cell(path, leaf.first_cell + c, type, m, id, n_point);
+            }
+        }
+    }
+}
+
+void gather_points(Tets &out, const Gathered &from)
+{
+    if (from.n_point > (size_t)INT32_MAX)
+        throw Refusal("the file holds " + std::to_string(from.n_point) + " points, more than 2147483647");
+    out.point.resize(3 * from.n_point);
+    out.rank.resize(from.n_point);
+    out.n_file_point = from.n_point;
+    for (const Leaf &leaf : from.leaf) {
+        const size_t n = (size_t)leaf.data->GetNumberOfPoints();
+        double *x = &out.point[3 * leaf.first_point];
+        for (size_t i = 0; i < n; i++)
+            leaf.data->GetPoint((vtkIdType)i, x + 3 * i);
+    }
+    for (size_t i = 0; i < from.n_point; i++)
+        out.rank[i] = (int32_t)i;
+}
+
+void rank_points(Tets &out)
+{
+    const size_t n = out.n_file_point;
+    size_t capacity = 16;
+    while (capacity < 2 * n)
+        capacity *= 2;
+    std::vector<int32_t> slot(capacity, -1);
+    for (size_t i = 0; i < n; i++) {
+        double x[3];
+        uint64_t bits[3], hash = 0;
+        for (int k = 0; k < 3; k++) {
+            x[k] = out.point[3 * i + (size_t)k] + 0.0; // -0 and 0 are one place
+            memcpy(&bits[k], &x[k], sizeof bits[k]);
+            hash = (hash ^ bits[k]) * UINT64_C(0x9e3779b97f4a7c15);
+            hash ^= hash >> 29;
+        }
+        size_t at = (size_t)(hash * UINT64_C(0xbf58476d1ce4e5b9) >> 20) & (capacity - 1);
+        for (;; at = (at + 1) & (capacity - 1)) {
+            const int32_t other = slot[at];
+            if (other < 0) {
+                slot[at] = (int32_t)i;
+                break;
+            }
+            const double *y = out.at(other);
+            if (y[0] == x[0] && y[1] == x[1] && y[2] == x[2]) {
+                out.rank[i] = other;
+                break;
+            }
+        }
+    }
+}
+
+} // namespace tetcast

@@ -1,0 +1,48 @@
+// gather.h: all blocks that a reader gave, as one list of points and cells.
+#ifndef TC_READERS_GATHER_H
+#define TC_READERS_GATHER_H
+
+#include "tets.h"
+
+#include <vtkDataSet.h>
+#include <vtkSmartPointer.h>
+
+#include <map>
+
+class vtkDataObject;
+
+namespace tetcast
+{
+
+struct Leaf {
+    vtkSmartPointer<vtkDataSet> data;
+    size_t first_point, first_cell; // numbers of its point 0 and cell 0 in the whole
+};
+
+struct Gathered {
+    std::vector<Leaf> leaf;
+    size_t n_point = 0, n_cell = 0;
+    size_t n_ghost = 0;            // cells left out: copies for neighbouring pieces, or blanked
+    std::map<int, size_t> by_type; // VTK cell type -> count, without ghosts
+    size_t n_solid = 0;            // of dimension 3
+    size_t n_curved = 0;           // of dimension 3, with nodes beyond the corners
+};
+
+// Appends the leaves of data (any nesting; null blocks and tables are skipped).
+void gather_leaves(Gathered &out, vtkDataObject *data);
+
+// Counts the cells by type and checks every point number. path is for the sentence.
+void count_cells(Gathered &out, const std::string &path);
+
+// Copies the coordinates; ranks are the point numbers.
+void gather_points(Tets &out, const Gathered &from);
+
+// Gives coinciding points (equal coordinates, bit by bit) the rank of the first of them.
+// Cost: O(n) time, 16 bytes a point of scratch.
+void rank_points(Tets &out);
+
+// Is the leaf's cell one to leave out as ghost or blanked?
+bool is_ghost(const Leaf &leaf, size_t cell);
+
+} // namespace tetcast
+#endif

@@ -1,0 +1,197 @@
+// load.cpp: from a path to VTK data of one time step.
+#include "load.h"
+
+#include <vtkDataObject.h>
+#include <vtkInformation.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tetcast
+{
+
+// ------------------------------------------------------------------------------------------------ any VTK reader
+
+void Reader::open(VtkTalk &talk)
+{
+    talk.watch(algorithm);
+    algorithm->UpdateInformation();
+    talk.check(path, format);
+}
+
+std::vector<Offered> Reader::arrays() const
+{
+    std::vector<Offered> all;
+    const auto add = [&](vtkDataArraySelection *selection, tc_association association) {
+        for (int i = 0; selection && i < selection->GetNumberOfArrays(); i++) {
+            Offered o;
+            o.name = selection->GetArrayName(i);
+            o.association = association;
+            if (o.name != "vtkGhostType")
+                all.push_back(o);
+        }
+    };
+    add(point_selection, TC_POINT_DATA);
+    add(cell_selection, TC_CELL_DATA);
+    return all;
+}
+
+std::vector<double> Reader::times() const
+{
+    vtkInformation *information = algorithm->GetOutputInformation(0);
+    std::vector<double> all;
+    if (information && information->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS())) {
+        const int n = information->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+        const double *t = information->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+        all.assign(t, t + n);
+    }
+    return all;
+}
+
+void Reader::select(const FieldWish &wish, bool all)
+{
+    const auto choose = [&](vtkDataArraySelection *selection, tc_association association) {
+        for (int i = 0; selection && i < selection->GetNumberOfArrays(); i++) {
+            const std::string name = selection->GetArrayName(i);
+            if (all || name == "vtkGhostType" || may_be_wanted(wish, name, association))
+                selection->EnableArray(name.c_str());
+            else
+                selection->DisableArray(name.c_str());
+        }
+    };
+    choose(point_selection, TC_POINT_DATA);
+    choose(cell_selection, TC_CELL_DATA);
+}
+
+vtkSmartPointer<vtkDataObject> Reader::read(VtkTalk &talk, bool has_time, double time)
+{
+    if (has_time)
+        algorithm->UpdateTimeStep(time);
+    else
+        algorithm->Update();
+    talk.check(path, format);
+    return algorithm->GetOutputDataObject(0);
+}
+
+// ------------------------------------------------------------------------------------------------ time
+
+static std::string number(double v)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.6g", v);
+    return text;
+}
+
+int choose_step(const ReadRequest &request, const std::vector<double> &times, std::vector<std::string> &notes)
+{
+    const int n = (int)times.size();
+    if (n == 0) {
+        if (request.has_step && request.step != 0 && request.step != -1)
+            throw Refusal(request.path + " has no time steps, so there is no step " + std::to_string(request.step));
+        if (request.has_time)
+            notes.push_back("the file has no time steps; the time asked for has no meaning");
+        return -1;
+    }
+    if (request.has_step) {
+        const int step = request.step < 0 ? n + request.step : request.step;
+        if (step < 0 || step >= n)
+            throw Refusal(request.path + " has " + std::to_string(n) + " time steps (0 to " + std::to_string(n - 1) +
+                          "), so there is no step " + std::to_string(request.step));
+        return step;
+    }
+    if (!request.has_time)
+        return 0;
+    if (std::isnan(request.time))
+        throw Refusal("the time asked for is not a number");
+    int best = -1;
+    for (int i = 0; i < n; i++) // a little slack: 0.3 typed for a stored 0.30000000000000004
+        if (times[(size_t)i] <= request.time + 1e-9 * std::fabs(request.time) &&
+            (best < 0 || times[(size_t)i] >= times[(size_t)best]))
+            best = i;
+    if (best < 0) {
+        best = (int)(std::min_element(times.begin(), times.end()) - times.begin());
+        notes.push_back("time " + number(request.time) + " lies before the first step; the step at " +
+                        number(times[(size_t)best]) + " was read");
+    }
+    return best;
+}
+
+// ------------------------------------------------------------------------------------------------ dispatch
+
+static tc_sniffed sniff(const std::string &path)
+{
+    tc_sniffed sniffed;
+    tc_error err;
+    if (tc_sniff_file(&sniffed, path.c_str(), &err) != TC_OK)
+        throw Refusal(err.text);
+    return sniffed;
+}
+
+static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sniffed, const ReadRequest &request,
+                     bool in_series, VtkTalk &talk)
+{
+    std::unique_ptr<Reader> reader;
+    switch (sniffed.format) {
+    case TC_FORMAT_VTK_XML:
+    case TC_FORMAT_VTK_LEGACY:
+    case TC_FORMAT_VTKHDF:
+        reader = make_vtk_reader(path, sniffed);
+        break;
+    case TC_FORMAT_EXODUS:
+    case TC_FORMAT_ENSIGHT:
+    case TC_FORMAT_OPENFOAM:
+    case TC_FORMAT_CGNS:
+        reader = make_case_reader(path, sniffed);
+        break;
+    case TC_FORMAT_PLOT3D:
+        reader = make_plot3d_reader(path);
+        break;
+    default:
+        throw Refusal(path + " is a list of files inside a list of files, which is not read; give the inner one");
+    }
+    reader->open(talk);
+    const std::vector<Offered> offered = reader->arrays();
+    if (!offered.empty())
+        require_wanted(path, request.field, offered);
+    reader->select(request.field, request.all_ranges);
+    const std::vector<double> times = reader->times();
+    const int step = in_series ? (times.empty() ? -1 : 0) : choose_step(request, times, out.notes);
+    vtkSmartPointer<vtkDataObject> data = reader->read(talk, step >= 0, step >= 0 ? times[(size_t)step] : 0);
+    if (!data)
+        throw Refusal(path + " gave no data; the file is damaged or empty");
+    out.data.push_back(data);
+    for (const Offered &o : offered)
+        if (std::none_of(out.offered.begin(), out.offered.end(),
+                         [&](const Offered &p) { return p.name == o.name && p.association == o.association; }))
+            out.offered.push_back(o);
+    out.notes.insert(out.notes.end(), reader->notes.begin(), reader->notes.end());
+    if (!in_series) {
+        out.times = times;
+        out.step = step;
+        out.format = reader->format;
+    }
+    out.reader = reader->algorithm->GetClassName();
+}
+
+Loaded load_file(const ReadRequest &request, VtkTalk &talk)
+{
+    Loaded out;
+    const tc_sniffed sniffed = sniff(request.path);
+    if (sniffed.format != TC_FORMAT_PVD && sniffed.format != TC_FORMAT_SERIES) {
+        load_one(out, request.path, sniffed, request, false, talk);
+        return out;
+    }
+    const Series series = sniffed.format == TC_FORMAT_PVD ? read_pvd(request.path, talk) : read_series(request.path);
+    out.times = series.time;
+    out.step = choose_step(request, series.time, out.notes);
+    for (const std::string &file : series.files[(size_t)out.step]) {
+        const tc_sniffed inner = sniff(file);
+        load_one(out, file, inner, request, true, talk);
+    }
+    out.format = series.format;
+    return out;
+}
+
+} // namespace tetcast

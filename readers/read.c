@@ -1,0 +1,255 @@
+/* read.c: tc_mesh_read: asks the helper program tetcast-read for one step of a file and makes a mesh of its arrays.
+ *
+ * Request: {"do": "read", "path", "field"?, "association": 0..2, "time"?, "step"?, "refine", "all_ranges"}.
+ * Result: {"format", "reader", "field"?, "association"?, "points", "cells", "solid_cells", "dropped_cells",
+ * "linearised", "refine", "step", "times": [], "offered": [{"name", "association", "components", "ranged", "lo"?,
+ * "hi"?}], "cell_types": [{"type", "dimension", "count"}], "notes": []} and the arrays vertex (f64), tet (i32), cell
+ * (i64: the file's cell of each tet), scalar (f64; absent without a field). */
+#define _GNU_SOURCE
+
+#include "core/memory.h"
+#include "core/worker.h"
+#include "mesh/mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* ------------------------------------------------------------------------------------------ request */
+
+static tc_status make_request(json_t **out, const char *path, const tc_read_options *options, tc_error *err)
+{
+    json_t *request = json_object();
+    int bad = !request;
+    bad |= json_object_set_new(request, "do", json_string("read"));
+    json_t *name = json_string(path);
+    if (!name) {
+        json_decref(request);
+        return tc_fail(err, TC_E_FILE, "the name of file %s is not UTF-8; rename it", path);
+    }
+    bad |= json_object_set_new(request, "path", name);
+    bad |= json_object_set_new(request, "association", json_integer(options->association));
+    bad |= json_object_set_new(request, "refine", json_integer(options->refine));
+    bad |= json_object_set_new(request, "all_ranges", json_boolean(options->all_ranges || !options->field));
+    if (options->field) {
+        json_t *field = json_string(options->field);
+        if (!field) {
+            json_decref(request);
+            return tc_fail(err, TC_E_ARG, "the name of the array is not UTF-8");
+        }
+        bad |= json_object_set_new(request, "field", field);
+    }
+    if (options->has_time)
+        bad |= json_object_set_new(request, "time", json_real(options->time));
+    if (options->has_step)
+        bad |= json_object_set_new(request, "step", json_integer(options->step));
+    if (bad) {
+        json_decref(request);
+        return tc_fail_memory(err, "a request", 1, 256);
+    }
+    *out = request;
+    return TC_OK;
+}
+
+/* ------------------------------------------------------------------------------------------ source */
+
+/* One block that strings and arrays are cut from; without a block it only counts. */
+typedef struct arena {
+    char *base;
+    size_t used;
+} arena;
+
+static void *take(arena *a, size_t bytes)
+{
+    void *p = a->base ? a->base + a->used : NULL;
+    a->used += (bytes + 15) & ~(size_t)15;
+    return p;
+}
+
+static const char *take_text(arena *a, const char *text)
+{
+    if (!text)
+        return NULL;
+    const size_t n = strlen(text) + 1;
+    char *p = take(a, n);
+    if (p)
+        memcpy(p, text, n);
+    return p;
+}
+
+static size_t count_of(const json_t *json, const char *key)
+{
+    const json_int_t n = json_integer_value(json_object_get(json, key));
+    return n > 0 ? (size_t)n : 0;
+}
+
+static const char *text_of(const json_t *json, const char *key)
+{
+    return json_string_value(json_object_get(json, key));
+}
+
+static void fill_arrays(tc_source *s, arena *a, const json_t *list)
+{
+    s->n_array = json_array_size(list);
+    tc_array_info *info = take(a, s->n_array * sizeof *info);
+    s->array = info;
+    for (size_t i = 0; i < s->n_array; i++) {
+        const json_t *row = json_array_get(list, i);
+        const char *name = take_text(a, text_of(row, "name"));
+        if (!info)
+            continue;
+        const json_t *lo = json_object_get(row, "lo"), *hi = json_object_get(row, "hi");
+        const bool ranged = json_is_true(json_object_get(row, "ranged"));
+        info[i].name = name;
+        info[i].association = (tc_association)json_integer_value(json_object_get(row, "association"));
+        info[i].components = (int)json_integer_value(json_object_get(row, "components"));
+        info[i].lo = lo ? json_number_value(lo) : ranged ? INFINITY : NAN;
+        info[i].hi = hi ? json_number_value(hi) : ranged ? -INFINITY : NAN;
+    }
+}
+
+static void fill_cells(tc_source *s, arena *a, const json_t *list)
+{
+    s->n_cell_type = json_array_size(list);
+    tc_cell_info *info = take(a, s->n_cell_type * sizeof *info);
+    s->cell_type = info;
+    for (size_t i = 0; i < s->n_cell_type; i++) {
+        const json_t *row = json_array_get(list, i);
+        const char *type = take_text(a, text_of(row, "type"));
+        if (!info)
+            continue;
+        info[i].type = type;
+        info[i].dimension = (int)json_integer_value(json_object_get(row, "dimension"));
+        info[i].count = count_of(row, "count");
+    }
+}
+
+static void fill_source(tc_source *s, arena *a, const char *path, const tc_reply *reply, double ms)
+{
+    const json_t *json = reply->json;
+    memset(s, 0, sizeof *s);
+    s->path = take_text(a, path);
+    s->format = take_text(a, text_of(json, "format"));
+    s->reader = take_text(a, text_of(json, "reader"));
+    s->field = take_text(a, text_of(json, "field"));
+    s->n_point = count_of(json, "points");
+    s->n_cell = count_of(json, "cells");
+    fill_arrays(s, a, json_object_get(json, "offered"));
+    fill_cells(s, a, json_object_get(json, "cell_types"));
+    const json_t *times = json_object_get(json, "times");
+    s->n_time = json_array_size(times);
+    double *time = take(a, s->n_time * sizeof *time);
+    for (size_t i = 0; time && i < s->n_time; i++)
+        time[i] = json_number_value(json_array_get(times, i));
+    s->time = time;
+    s->step = (int)json_integer_value(json_object_get(json, "step"));
+    s->dropped_cells = count_of(json, "dropped_cells");
+    s->linearised = json_is_true(json_object_get(json, "linearised"));
+    s->refine = (int)count_of(json, "refine");
+    const json_t *notes = json_object_get(json, "notes");
+    s->n_note = json_array_size(notes);
+    const char **note = take(a, s->n_note * sizeof *note);
+    for (size_t i = 0; i < s->n_note; i++) {
+        const char *line = take_text(a, json_string_value(json_array_get(notes, i)));
+        if (note)
+            note[i] = line;
+    }
+    s->note = note;
+    s->ms_read = ms;
+    s->helper_peak_bytes = reply->peak_bytes;
+}
+
+static tc_status attach_source(tc_mesh *mesh, const char *path, const tc_reply *reply, double ms, tc_error *err)
+{
+    arena measure = {NULL, 0};
+    tc_source *source = tc_calloc(1, sizeof *source);
+    if (!source)
+        return tc_fail_memory(err, "the description of a file", 1, sizeof *source);
+    fill_source(source, &measure, path, reply, ms);
+    arena block = {tc_calloc(measure.used + 16, 1), 0};
+    if (!block.base) {
+        free(source);
+        return tc_fail_memory(err, "the description of a file", measure.used, 1);
+    }
+    fill_source(source, &block, path, reply, ms);
+    mesh->source = source;
+    mesh->source_memory = block.base;
+    mesh->report.source_cells = count_of(reply->json, "solid_cells");
+    return TC_OK;
+}
+
+/* ------------------------------------------------------------------------------------------ mesh */
+
+static tc_status make_mesh(tc_mesh **out, const tc_reply *reply, tc_error *err)
+{
+    const tc_array *vertex = tc_reply_array(reply, "vertex", TC_F64);
+    const tc_array *tet = tc_reply_array(reply, "tet", TC_I32);
+    const tc_array *scalar = tc_reply_array(reply, "scalar", TC_F64);
+    if (!vertex || !tet || vertex->count % 3 || tet->count % 4)
+        return tc_fail(err, TC_E_WORKER,
+                       "tetcast-read gave an answer without points or tets; is it of another version?");
+    tc_mesh_arrays arrays = {.n_vertex = vertex->count / 3,
+                             .vertex = vertex->data,
+                             .n_tet = tet->count / 4,
+                             .tet = tet->data,
+                             .association = TC_POINT_DATA};
+    if (scalar) {
+        arrays.association = (tc_association)json_integer_value(json_object_get(reply->json, "association"));
+        const size_t want = arrays.association == TC_CELL_DATA ? arrays.n_tet : arrays.n_vertex;
+        if (scalar->count != want)
+            return tc_fail(err, TC_E_WORKER, "tetcast-read gave %zu values for %zu places; is it of another version?",
+                           scalar->count, want);
+        arrays.scalar = scalar->data;
+        arrays.field_name = text_of(reply->json, "field");
+    }
+    return tc_mesh_create(out, &arrays, err);
+}
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_options *options, const tc_log *log,
+                       tc_error *err)
+{
+    static const tc_read_options defaults = {0};
+    if (!out || !path)
+        return tc_fail(err, TC_E_ARG, "tc_mesh_read: out or path is NULL");
+    *out = NULL;
+    if (!options)
+        options = &defaults;
+    if (options->refine < 0 || options->refine > 6)
+        return tc_fail(err, TC_E_ARG, "refine %d is not in 0 to 6 (each level makes 8 times as many tets)",
+                       options->refine);
+    if (options->has_time && !isfinite(options->time))
+        return tc_fail(err, TC_E_ARG, "the time to read is not a finite number");
+
+    json_t *request = NULL;
+    tc_worker *worker = NULL;
+    tc_reply reply = {0};
+    tc_mesh *mesh = NULL;
+    const double start = now_ms();
+    const tc_worker_limits limits = {.idle_s = options->idle_limit_s > 0 ? options->idle_limit_s : 60};
+    tc_status status = make_request(&request, path, options, err);
+    if (!status)
+        status = tc_worker_start(&worker, "tetcast-read", &limits, err);
+    if (!status)
+        status = tc_worker_call(&reply, worker, request, NULL, 0, log, err);
+    if (!status)
+        status = make_mesh(&mesh, &reply, err);
+    if (!status)
+        status = attach_source(mesh, path, &reply, now_ms() - start, err);
+    tc_worker_stop(&worker);
+    tc_reply_finish(&reply);
+    json_decref(request);
+    if (status) {
+        tc_mesh_destroy(&mesh);
+        return status;
+    }
+    *out = mesh;
+    return TC_OK;
+}

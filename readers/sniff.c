@@ -1,0 +1,291 @@
+/* sniff.c: what format a file is in, by its content first, then by its name. */
+#include "sniff.h"
+
+#include "core/memory.h"
+#include "plot3d_layout.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { HEAD_BYTES = 4 << 20, TEXT_BYTES = 4096 };
+
+bool tc_sniff_has(const unsigned char *head, size_t n, const char *text)
+{
+    const size_t length = strlen(text);
+    if (length == 0 || length > n)
+        return false;
+    for (const unsigned char *p = head, *end = head + (n - length); p <= end; p++) {
+        p = memchr(p, text[0], (size_t)(end - p) + 1);
+        if (!p)
+            return false;
+        if (memcmp(p, text, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool starts(const unsigned char *head, size_t n, const char *text)
+{
+    return n >= strlen(text) && memcmp(head, text, strlen(text)) == 0;
+}
+
+bool tc_sniff_ends(const char *path, const char *extension)
+{
+    const size_t n = strlen(path), m = strlen(extension);
+    if (n < m)
+        return false;
+    for (size_t i = 0; i < m; i++)
+        if (tolower((unsigned char)path[n - m + i]) != tolower((unsigned char)extension[i]))
+            return false;
+    return true;
+}
+
+static tc_status found(tc_sniffed *out, tc_format format, const char *kind)
+{
+    out->format = format;
+    snprintf(out->kind, sizeof out->kind, "%s", kind);
+    return TC_OK;
+}
+
+/* The value of type="…" in the VTKFile tag. */
+static tc_status sniff_vtk_xml(tc_sniffed *out, const char *path, const char *text, tc_error *err)
+{
+    const char *tag = strstr(text, "<VTKFile");
+    const char *end = strchr(tag, '>');
+    const char *type = strstr(tag, "type");
+    if (!type || (end && type > end))
+        return tc_fail(err, TC_E_FILE, "%s is a VTK XML file whose VTKFile tag has no type; write it again", path);
+    type += 4;
+    while (isspace((unsigned char)*type) || *type == '=')
+        type++;
+    char kind[64] = "";
+    if (*type == '"' || *type == '\'') {
+        const char *stop = strchr(type + 1, *type);
+        if (stop && (size_t)(stop - type) < sizeof kind) {
+            memcpy(kind, type + 1, (size_t)(stop - type) - 1);
+            kind[stop - type - 1] = 0;
+        }
+    }
+    static const char *const known[] = {"UnstructuredGrid",
+                                        "PUnstructuredGrid",
+                                        "StructuredGrid",
+                                        "PStructuredGrid",
+                                        "RectilinearGrid",
+                                        "PRectilinearGrid",
+                                        "ImageData",
+                                        "PImageData",
+                                        "vtkMultiBlockDataSet",
+                                        "vtkPartitionedDataSet",
+                                        "vtkPartitionedDataSetCollection"};
+    if (strcmp(kind, "Collection") == 0)
+        return found(out, TC_FORMAT_PVD, kind);
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(kind, known[i]) == 0)
+            return found(out, TC_FORMAT_VTK_XML, kind);
+    if (strcmp(kind, "PolyData") == 0 || strcmp(kind, "PPolyData") == 0)
+        return tc_fail(err, TC_E_FILE, "%s holds a surface (VTK PolyData), not a volume: it has no 3-D cells to render",
+                       path);
+    return tc_fail(err, TC_E_FILE,
+                   "%s is a VTK XML file of type \"%s\", which is not read; save it as UnstructuredGrid (.vtu)", path,
+                   kind);
+}
+
+static tc_status sniff_vtk_legacy(tc_sniffed *out, const char *path, const char *text, tc_error *err)
+{
+    const char *at = strstr(text, "DATASET");
+    char kind[64] = "";
+    if (!at)
+        at = strstr(text, "dataset");
+    if (at)
+        sscanf(at + 7, " %63s", kind);
+    for (char *p = kind; *p; p++)
+        *p = (char)toupper((unsigned char)*p);
+    if (strcmp(kind, "POLYDATA") == 0)
+        return tc_fail(err, TC_E_FILE, "%s holds a surface (VTK POLYDATA), not a volume: it has no 3-D cells to render",
+                       path);
+    if (!at && !tc_sniff_has((const unsigned char *)text, strlen(text), "FIELD"))
+        return tc_fail(err, TC_E_FILE, "%s is a legacy VTK file without a DATASET line; it is cut short or damaged",
+                       path);
+    return found(out, TC_FORMAT_VTK_LEGACY, kind);
+}
+
+static tc_status sniff_hdf5(tc_sniffed *out, const char *path, const unsigned char *head, size_t n, tc_error *err)
+{
+    if (tc_sniff_has(head, n, "VTKHDF"))
+        return found(out, TC_FORMAT_VTKHDF, "");
+    if (tc_sniff_has(head, n, "CGNSLibraryVersion"))
+        return found(out, TC_FORMAT_CGNS, "HDF5");
+    if (tc_sniff_has(head, n, "num_el_blk") ||
+        (tc_sniff_has(head, n, "api_version") && tc_sniff_has(head, n, "num_nodes")))
+        return found(out, TC_FORMAT_EXODUS, "netCDF-4");
+    if (tc_sniff_has(head, n, "ENS_MAA") || tc_sniff_ends(path, ".med"))
+        return tc_fail(err, TC_E_FILE, "%s is a MED file, which is not read; convert it: meshio convert %s out.vtu",
+                       path, path);
+    if (tc_sniff_ends(path, ".cgns"))
+        return found(out, TC_FORMAT_CGNS, "HDF5");
+    if (tc_sniff_ends(path, ".e") || tc_sniff_ends(path, ".exo") || tc_sniff_ends(path, ".ex2"))
+        return found(out, TC_FORMAT_EXODUS, "netCDF-4");
+    if (tc_sniff_ends(path, ".vtkhdf"))
+        return found(out, TC_FORMAT_VTKHDF, "");
+    return tc_fail(err, TC_E_FILE,
+                   "%s is an HDF5 file but not VTKHDF, CGNS or Exodus; if an .xdmf file belongs to it, convert that: "
+                   "meshio convert X.xdmf out.vtu",
+                   path);
+}
+
+static bool all_text(const unsigned char *head, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (head[i] == 0)
+            return false;
+    return n > 0;
+}
+
+tc_status tc_sniff_head(tc_sniffed *out, const char *path, const unsigned char *head, size_t n, tc_error *err)
+{
+    memset(out, 0, sizeof *out);
+    char text[TEXT_BYTES + 1];
+    const size_t n_text = n < TEXT_BYTES ? n : TEXT_BYTES;
+    for (size_t i = 0; i < n_text; i++)
+        text[i] = head[i] ? (char)head[i] : ' ';
+    text[n_text] = 0;
+
+    if (starts(head, n, "# vtk DataFile"))
+        return sniff_vtk_legacy(out, path, text, err);
+    if (strstr(text, "<VTKFile"))
+        return sniff_vtk_xml(out, path, text, err);
+    if (starts(head, n, "\x89HDF\r\n\x1a\n"))
+        return sniff_hdf5(out, path, head, n, err);
+    if (starts(head, n, "CDF\001") || starts(head, n, "CDF\002") || starts(head, n, "CDF\005")) {
+        if (tc_sniff_has(head, n, "num_el_blk") || tc_sniff_has(head, n, "num_nodes"))
+            return found(out, TC_FORMAT_EXODUS, "netCDF-3");
+        return tc_fail(err, TC_E_FILE,
+                       "%s is a netCDF file but not Exodus II (it has no element blocks); convert it to .vtu with the "
+                       "program that wrote it",
+                       path);
+    }
+    if (tc_sniff_has(head, n_text, "@(#)ADF Database"))
+        return found(out, TC_FORMAT_CGNS, "ADF");
+    if (strstr(text, "file-series-version"))
+        return found(out, TC_FORMAT_SERIES, "");
+    if (all_text(head, n_text) && strstr(text, "FORMAT") && strstr(text, "type:") &&
+        (strstr(text, "ensight") || strstr(text, "ENSIGHT") || strstr(text, "EnSight"))) {
+        if (strstr(text, "SERVERS") || strstr(text, "master_server"))
+            return tc_fail(
+                err, TC_E_FILE,
+                "%s is an EnSight server-of-servers file, which is not read; give one of the .case files that it "
+                "names",
+                path);
+        return found(out, TC_FORMAT_ENSIGHT, "");
+    }
+    if (strstr(text, "FoamFile"))
+        return found(out, TC_FORMAT_OPENFOAM, "");
+    return tc_sniff_foreign(path, head, n, false, err);
+}
+
+static bool is_case_folder(const char *folder)
+{
+    static const char *const inside[] = {"constant/polyMesh", "system/controlDict", "processor0/constant/polyMesh"};
+    struct stat st;
+    char path[4096];
+    for (size_t i = 0; i < sizeof inside / sizeof *inside; i++) {
+        const int n = snprintf(path, sizeof path, "%s/%s", folder, inside[i]);
+        if (n > 0 && (size_t)n < sizeof path && stat(path, &st) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* The folder that holds path. */
+static void folder_of(char *out, size_t capacity, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    if (slash)
+        snprintf(out, capacity, "%.*s", (int)(slash == path ? 1 : slash - path), path);
+    else
+        snprintf(out, capacity, ".");
+}
+
+static tc_status sniff_name(tc_sniffed *out, const char *path, const unsigned char *head, size_t n, tc_error *err)
+{
+    static const struct {
+        const char *extension;
+        tc_format format;
+    } names[] = {{".ex2", TC_FORMAT_EXODUS},   {".exo", TC_FORMAT_EXODUS},     {".e", TC_FORMAT_EXODUS},
+                 {".cgns", TC_FORMAT_CGNS},    {".vtk", TC_FORMAT_VTK_LEGACY}, {".vtu", TC_FORMAT_VTK_XML},
+                 {".pvtu", TC_FORMAT_VTK_XML}, {".pvd", TC_FORMAT_PVD},        {".series", TC_FORMAT_SERIES},
+                 {".case", TC_FORMAT_ENSIGHT}, {".hdf", TC_FORMAT_VTKHDF},     {".vtkhdf", TC_FORMAT_VTKHDF}};
+    static const char *const format_name[] = {
+        "?",    "VTK XML", "legacy VTK",          "VTKHDF",     "Exodus II", "EnSight case", "OpenFOAM",
+        "CGNS", "PLOT3D",  "ParaView collection", "file series"};
+    if (tc_sniff_ends(path, ".foam") || tc_sniff_ends(path, ".OpenFOAM")) {
+        char folder[4096];
+        folder_of(folder, sizeof folder, path);
+        if (is_case_folder(folder))
+            return found(out, TC_FORMAT_OPENFOAM, "");
+        return tc_fail(
+            err, TC_E_FILE,
+            "%s does not lie in an OpenFOAM case: there is no constant/polyMesh and no system/controlDict beside "
+            "it",
+            path);
+    }
+    if (n == 0)
+        return tc_fail(err, TC_E_FILE, "%s is empty", path);
+    tc_plot3d_layout layout;
+    if (tc_plot3d_layout_of(&layout, path, NULL) == TC_OK && layout.kind != TC_PLOT3D_NONE)
+        return found(out, TC_FORMAT_PLOT3D, "");
+    tc_status status = tc_sniff_foreign(path, head, n, true, err);
+    if (status)
+        return status;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (tc_sniff_ends(path, names[i].extension))
+            return tc_fail(err, TC_E_FILE, "%s is named like %s, but its content is not; it is damaged or misnamed",
+                           path, format_name[names[i].format]);
+    return tc_fail(
+        err, TC_E_FILE,
+        "%s is in no format that is known here; convert it to VTU: meshio convert %s out.vtu (or save it as .vtu "
+        "with the program that wrote it)",
+        path, path);
+}
+
+tc_status tc_sniff_file(tc_sniffed *out, const char *path, tc_error *err)
+{
+    memset(out, 0, sizeof *out);
+    struct stat st;
+    if (stat(path, &st) != 0)
+        return tc_fail(err, TC_E_FILE, "%s cannot be opened: %s", path, strerror(errno));
+    if (S_ISDIR(st.st_mode)) {
+        if (is_case_folder(path))
+            return found(out, TC_FORMAT_OPENFOAM, "");
+        return tc_fail(err, TC_E_FILE,
+                       "%s is a folder but not an OpenFOAM case (it has no constant/polyMesh); give a file in it",
+                       path);
+    }
+    if (!S_ISREG(st.st_mode))
+        return tc_fail(err, TC_E_FILE, "%s is not a file; save the data to a file first", path);
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return tc_fail(err, TC_E_FILE, "%s cannot be opened: %s", path, strerror(errno));
+    const size_t want = st.st_size < HEAD_BYTES ? (size_t)st.st_size : (size_t)HEAD_BYTES;
+    unsigned char *head = tc_alloc(want, 1);
+    if (!head) {
+        fclose(file);
+        return tc_fail_memory(err, "the head of a file", want, 1);
+    }
+    const size_t n = fread(head, 1, want, file);
+    const bool broken = ferror(file);
+    fclose(file);
+    tc_status status;
+    if (broken)
+        status = tc_fail(err, TC_E_FILE, "%s cannot be read: %s", path, strerror(errno));
+    else
+        status = tc_sniff_head(out, path, head, n, err);
+    if (!status && out->format == TC_FORMAT_UNKNOWN)
+        status = sniff_name(out, path, head, n, err);
+    free(head);
+    return status;
+}

@@ -1,0 +1,221 @@
+// tetcast_read.cpp: the helper program: reads one time step of a file with VTK, splits every cell into tets and hands
+// arrays back (protocol: src/core/serve.h; request and result: readers/read.c).
+#include "cell_types.h"
+#include "core/serve.h"
+#include "fields.h"
+#include "gather.h"
+#include "load.h"
+#include "split_mesh.h"
+#include "vtk_talk.h"
+
+#include <cmath>
+#include <memory>
+
+namespace tetcast
+{
+
+namespace
+{
+
+ReadRequest parse_request(json_t *request)
+{
+    ReadRequest out;
+    const char *path = json_string_value(json_object_get(request, "path"));
+    const char *field = json_string_value(json_object_get(request, "field"));
+    out.path = path ? path : "";
+    out.field.any = !field;
+    out.field.text = field ? field : "";
+    out.field.association = (tc_association)json_integer_value(json_object_get(request, "association"));
+    json_t *time = json_object_get(request, "time"), *step = json_object_get(request, "step");
+    out.has_time = time != nullptr;
+    out.time = json_number_value(time);
+    out.has_step = step != nullptr;
+    out.step = (int)json_integer_value(step);
+    out.refine = (int)json_integer_value(json_object_get(request, "refine"));
+    out.all_ranges = json_is_true(json_object_get(request, "all_ranges"));
+    if (out.path.empty())
+        throw Refusal("no file was named");
+    return out;
+}
+
+json_t *text(const std::string &s)
+{
+    json_t *j = json_stringn(s.data(), s.size());
+    return j ? j : json_string("(a name that is not UTF-8)");
+}
+
+json_t *describe_arrays(const std::vector<Offered> &offered)
+{
+    json_t *list = json_array();
+    for (const Offered &o : offered) {
+        json_t *row = json_object();
+        json_object_set_new(row, "name", text(o.name));
+        json_object_set_new(row, "association", json_integer(o.association));
+        json_object_set_new(row, "components", json_integer(o.components));
+        json_object_set_new(row, "ranged", json_boolean(o.ranged));
+        if (o.ranged && o.lo <= o.hi) {
+            json_object_set_new(row, "lo", json_real(o.lo));
+            json_object_set_new(row, "hi", json_real(o.hi));
+        }
+        json_array_append_new(list, row);
+    }
+    return list;
+}
+
+json_t *describe_cells(const Gathered &data)
+{
+    json_t *list = json_array();
+    for (const auto &entry : data.by_type) {
+        const CellType &type = cell_type(entry.first);
+        json_t *row = json_object();
+        const std::string name = type.vtk < 0 ? "type_" + std::to_string(entry.first) : type.name;
+        json_object_set_new(row, "type", text(name));
+        json_object_set_new(row, "dimension", json_integer(type.dimension < 0 ? 0 : type.dimension));
+        json_object_set_new(row, "count", json_integer((json_int_t)entry.second));
+        json_array_append_new(list, row);
+    }
+    return list;
+}
+
+json_t *describe_texts(const std::vector<std::string> &lines)
+{
+    json_t *list = json_array();
+    for (const std::string &line : lines)
+        json_array_append_new(list, text(line));
+    return list;
+}
+
+std::string counted(size_t n, const char *one, const char *many)
+{
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+void require_solid(const std::string &path, const Gathered &data)
+{
+    if (data.n_solid > 0)
+        return;
+    std::string kinds;
+    for (const auto &entry : data.by_type)
+        kinds += (kinds.empty() ? "" : ", ") + std::to_string(entry.second) + " " + cell_type(entry.first).name;
+    throw Refusal(path + " has no 3-D cells to render; it holds " + (kinds.empty() ? "no cells" : kinds));
+}
+
+void note_split(std::vector<std::string> &notes, const Gathered &data, const Tets &tets, int refine)
+{
+    if (data.n_ghost)
+        notes.push_back(counted(data.n_ghost, "ghost or blanked cell was", "ghost or blanked cells were") +
+                        " left out");
+    if (data.n_curved && refine == 0)
+        notes.push_back(counted(data.n_curved, "cell of higher order was", "cells of higher order were") +
+                        " made linear by their corners (--refine N keeps more of the curve)");
+    if (tets.turned_cells)
+        notes.push_back(counted(tets.turned_cells, "cell was", "cells were") + " inside out and turned");
+    if (tets.folded_cells)
+        notes.push_back(counted(tets.folded_cells, "cell is", "cells are") + " folded over; the tets overlap there");
+    if (tets.centred_cells)
+        notes.push_back(counted(tets.centred_cells, "cell got a point", "cells got points") +
+                        " inside, with interpolated data");
+    if (tets.open_cells)
+        notes.push_back(counted(tets.open_cells, "polyhedron is", "polyhedra are") + " not closed and left out");
+    if (tets.refused_cells)
+        notes.push_back(counted(tets.refused_cells, "polyhedron", "polyhedra") + " could not be filled and left out");
+}
+
+void read(tc_serve *serve, json_t *json)
+{
+    const ReadRequest request = parse_request(json);
+    VtkTalk talk(serve);
+    talk.progress("reading", -1);
+    Loaded loaded = load_file(request, talk);
+    Gathered data;
+    for (const auto &object : loaded.data)
+        gather_leaves(data, object);
+    count_cells(data, request.path);
+    require_solid(request.path, data);
+    list_read_arrays(loaded.offered, data);
+    const Chosen chosen = choose_field(request.path, request.field, loaded.offered);
+    find_ranges(loaded.offered, data, [&](const Offered &o) {
+        return request.all_ranges || (o.name == chosen.name && o.association == chosen.association);
+    });
+
+    Tets tets;
+    const int refined = split_mesh(tets, data, request.refine, loaded.notes, talk);
+    note_split(loaded.notes, data, tets, refined);
+    for (const Offered &o : loaded.offered)
+        if (!chosen.none && o.name == chosen.name && o.association == chosen.association && o.blocks_without > 0)
+            loaded.notes.push_back("array \"" + o.name + "\" is missing in " + std::to_string(o.blocks_without) +
+                                   " of " + std::to_string(data.leaf.size()) + " blocks; there it is NaN");
+    const std::vector<int32_t> used = compact_points(tets);
+
+    talk.progress("field", -1);
+    std::vector<double> vertex(3 * used.size());
+    for (size_t i = 0; i < used.size(); i++)
+        for (size_t k = 0; k < 3; k++)
+            vertex[3 * i + k] = tets.at(used[i])[k];
+    std::vector<double> scalar;
+    if (!chosen.none && chosen.association == TC_POINT_DATA) {
+        scalar.resize(used.size());
+        point_values(scalar.data(), chosen, data, tets, used.data(), used.size());
+    } else if (!chosen.none) {
+        scalar.resize(tets.cell.size());
+        cell_values(scalar.data(), chosen, data, tets.cell.data(), tets.cell.size());
+    }
+
+    std::unique_ptr<json_t, void (*)(json_t *)> result(json_object(), [](json_t *j) { json_decref(j); });
+    json_object_set_new(result.get(), "format", text(loaded.format));
+    json_object_set_new(result.get(), "reader", text(loaded.reader));
+    if (!chosen.none) {
+        json_object_set_new(result.get(), "field", text(chosen.label));
+        json_object_set_new(result.get(), "association", json_integer(chosen.association));
+    }
+    json_object_set_new(result.get(), "points", json_integer((json_int_t)data.n_point));
+    json_object_set_new(result.get(), "cells", json_integer((json_int_t)data.n_cell));
+    json_object_set_new(result.get(), "solid_cells", json_integer((json_int_t)data.n_solid));
+    json_object_set_new(result.get(), "dropped_cells",
+                        json_integer((json_int_t)(data.n_cell - data.n_solid + tets.refused_cells + tets.open_cells)));
+    json_object_set_new(result.get(), "linearised", json_boolean(data.n_curved > 0));
+    json_object_set_new(result.get(), "refine", json_integer(refined));
+    json_object_set_new(result.get(), "step", json_integer(loaded.step));
+    json_t *times = json_array();
+    for (double t : loaded.times)
+        json_array_append_new(times, json_real(std::isfinite(t) ? t : 0));
+    json_object_set_new(result.get(), "times", times);
+    json_object_set_new(result.get(), "offered", describe_arrays(loaded.offered));
+    json_object_set_new(result.get(), "cell_types", describe_cells(data));
+    json_object_set_new(result.get(), "notes", describe_texts(loaded.notes));
+
+    const tc_array array[] = {{"vertex", TC_F64, vertex.size(), vertex.data()},
+                              {"tet", TC_I32, tets.tet.size(), tets.tet.data()},
+                              {"cell", TC_I64, tets.cell.size(), tets.cell.data()},
+                              {"scalar", TC_F64, scalar.size(), scalar.data()}};
+    tc_serve_result(serve, result.get(), array, chosen.none ? 3 : 4);
+}
+
+void handle(void *, tc_serve *serve, json_t *request, const tc_array *, size_t)
+{
+    const char *what = json_string_value(json_object_get(request, "do"));
+    const char *path = json_string_value(json_object_get(request, "path"));
+    const std::string name = path ? path : "the file";
+    try {
+        if (!what || std::string(what) != "read")
+            tc_serve_error(serve, "tetcast-read only knows the request \"read\"");
+        else
+            read(serve, request);
+    } catch (const Refusal &refusal) {
+        tc_serve_error(serve, refusal.what());
+    } catch (const std::bad_alloc &) {
+        tc_serve_error(serve, (name + " needs more memory than there is").c_str());
+    } catch (const std::exception &e) {
+        tc_serve_error(serve, (name + " could not be read: " + e.what()).c_str());
+    } catch (...) {
+        tc_serve_error(serve, (name + " could not be read: VTK gave up without saying why").c_str());
+    }
+}
+
+} // namespace
+} // namespace tetcast
+
+int main(int argc, char **argv)
+{
+    return tc_serve_main(argc, argv, "tetcast-read", tetcast::handle, nullptr);
+}

@@ -1,0 +1,104 @@
+// vtk_talk.cpp: what VTK says while a file is read.
+#include "vtk_talk.h"
+
+#include "tets.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+
+namespace tetcast
+{
+
+namespace
+{
+
+// "ERROR: In /x/vtkFoo.cxx, line 12\nvtkFoo (0x55): Cannot open\n\n" -> "Cannot open".
+std::string bare(const std::string &text)
+{
+    std::string s = text;
+    size_t at = s.find(", line ");
+    if (at != std::string::npos && (at = s.find('\n', at)) != std::string::npos)
+        s.erase(0, at + 1);
+    at = s.find("): ");
+    if (at != std::string::npos && s.compare(0, 3, "vtk") == 0)
+        s.erase(0, at + 3);
+    for (char &c : s)
+        if (c == '\n' || c == '\r' || c == '\t')
+            c = ' ';
+    std::string squeezed;
+    for (char c : s)
+        if (c != ' ' || (!squeezed.empty() && squeezed.back() != ' '))
+            squeezed += c;
+    while (!squeezed.empty() && (squeezed.back() == ' ' || squeezed.back() == '.'))
+        squeezed.pop_back();
+    return squeezed.substr(0, 400);
+}
+
+class Window : public vtkOutputWindow
+{
+  public:
+    static Window *New();
+    vtkTypeMacro(Window, vtkOutputWindow);
+    VtkTalk *talk = nullptr;
+
+    void DisplayText(const char *) override {}
+    void DisplayErrorText(const char *text) override
+    {
+        if (talk && text && talk->errors.size() < 16)
+            talk->errors.push_back(bare(text));
+    }
+    void DisplayWarningText(const char *) override {}
+    void DisplayGenericWarningText(const char *) override {}
+    void DisplayDebugText(const char *) override {}
+};
+vtkStandardNewMacro(Window);
+
+void on_progress(vtkObject *caller, unsigned long, void *talk, void *)
+{
+    vtkAlgorithm *algorithm = vtkAlgorithm::SafeDownCast(caller);
+    static_cast<VtkTalk *>(talk)->progress("reading", algorithm ? algorithm->GetProgress() : -1);
+}
+
+} // namespace
+
+VtkTalk::VtkTalk(tc_serve *to) : serve(to)
+{
+    vtkNew<Window> window;
+    window->talk = this;
+    vtkOutputWindow::SetInstance(window);
+}
+
+VtkTalk::~VtkTalk()
+{
+    if (Window *window = Window::SafeDownCast(vtkOutputWindow::GetInstance()))
+        window->talk = nullptr;
+}
+
+void VtkTalk::watch(vtkAlgorithm *algorithm)
+{
+    vtkNew<vtkCallbackCommand> command;
+    command->SetCallback(on_progress);
+    command->SetClientData(this);
+    algorithm->AddObserver(vtkCommand::ProgressEvent, command);
+}
+
+void VtkTalk::progress(const char *what, double fraction)
+{
+    tc_serve_progress(serve, what, fraction);
+}
+
+void VtkTalk::check(const std::string &path, const std::string &format)
+{
+    if (errors.empty())
+        return;
+    const std::string first = errors.front();
+    errors.clear();
+    throw Refusal(path + " could not be read as " + format + ": " + first +
+                  "; the file is damaged or cut short, write or fetch it again");
+}
+
+} // namespace tetcast
