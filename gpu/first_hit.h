@@ -1,0 +1,12 @@
+/* first_hit.h: finds where each ray enters the mesh: boundary faces, drawn (Weiler et al. 2003, 3.1; design: "First hit").
+ * With peeling, one call finds each ray's next entry. */
+#ifndef TC_GPU_FIRST_HIT_H
+#define TC_GPU_FIRST_HIT_H
+
+#include "gpu/job.h"
+
+/* Writes walk and at of state set 0: the entry of each ray, cell -1 where there is none. layer 0: the first entry;
+ * layer > 0 (peeling): the next after the one found by layer - 1. Errors: TC_E_GL. */
+tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err);
+
+#endif

@@ -1,0 +1,93 @@
+/* frame.c: the rays of an image in mesh space (design: "Ray frame").
+ *
+ * The origin of a ray's frame is the point where it meets the plane through the mesh's centre across the view, so that
+ * coordinates stay small however far the eye is; the eye itself when it is nearer than two half diagonals. */
+#include "gpu/frame.h"
+
+#include "core/vec.h"
+
+#include <string.h>
+
+static const double EYE_NEAR = 2.0; /* half diagonals */
+
+static void to_mesh_space(double *out, const double *p, const double *center, double scale)
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = (p[k] - center[k]) * scale;
+}
+
+/* clip * (scale, center): the product is made in double and rounded once. */
+static void clip_matrix(float *out, const double *clip, const double *center, double scale)
+{
+    for (int row = 0; row < 4; row++) {
+        double at_center = clip[12 + row];
+        for (int k = 0; k < 3; k++) {
+            out[4 * k + row] = (float)(clip[4 * k + row] / scale);
+            at_center += clip[4 * k + row] * center[k];
+        }
+        out[12 + row] = (float)at_center;
+    }
+}
+
+/* Makes clip coordinates of order one: the homogeneous matrix may have any scale. */
+static void scale_clip(float *clip)
+{
+    float largest = 0;
+    for (int i = 0; i < 4; i++) {
+        float w = clip[4 * i + 3];
+        largest = fmaxf(largest, fabsf(w));
+    }
+    for (int i = 0; i < 16 && largest > 0; i++)
+        clip[i] /= largest;
+}
+
+void tc_frame_build(tc_frame *out, const tc_rays *rays, const double center[3], double scale)
+{
+    memset(out, 0, sizeof *out);
+    clip_matrix(out->clip, rays->clip, center, scale);
+    scale_clip(out->clip);
+
+    /* The view's axis: the direction of the image's middle. */
+    double axis[3];
+    for (int k = 0; k < 3; k++)
+        axis[k] = rays->direction[k] + 0.5 * rays->width * rays->direction_dx[k] + 0.5 * rays->height * rays->direction_dy[k];
+    tc_vec_normalize(axis);
+
+    tc_vec_copy(out->direction, rays->direction);
+    tc_vec_copy(out->direction_dx, rays->direction_dx);
+    tc_vec_copy(out->direction_dy, rays->direction_dy);
+    if (rays->parallel) {
+        double origin[3];
+        to_mesh_space(origin, rays->origin, center, scale);
+        for (int k = 0; k < 3; k++) {
+            out->point[k] = origin[k];
+            out->point_dx[k] = rays->origin_dx[k] * scale;
+            out->point_dy[k] = rays->origin_dy[k] * scale;
+        }
+        double t = -tc_vec_dot(out->point, axis);
+        tc_vec_mul_add(out->point, out->point, t, axis);
+        tc_vec_cross(out->up, out->point_dx, axis);
+        if (tc_vec_dot(out->up, out->point_dy) < 0)
+            for (int k = 0; k < 3; k++)
+                out->up[k] = -out->up[k];
+    } else {
+        double eye[3];
+        to_mesh_space(eye, rays->eye, center, scale);
+        double distance = tc_vec_length(eye), ahead = -tc_vec_dot(eye, axis);
+        if (distance < EYE_NEAR) {
+            tc_vec_copy(out->point, eye);
+            out->eye_inside = distance < 1.0 + 1e-6;
+        } else {
+            /* dot(direction, axis) is the same for every pixel, so the point is affine in the pixel. */
+            double t = ahead / tc_vec_dot(out->direction, axis);
+            tc_vec_mul_add(out->point, eye, t, out->direction);
+            for (int k = 0; k < 3; k++) {
+                out->point_dx[k] = t * out->direction_dx[k];
+                out->point_dy[k] = t * out->direction_dy[k];
+            }
+        }
+        out->behind = ahead < -1.0;
+        tc_vec_copy(out->up, out->direction_dy);
+    }
+    tc_vec_normalize(out->up);
+}

@@ -1,0 +1,114 @@
+/* gl.h: the GL 4.5 core functions that the renderer calls, as one table filled from a context's get_proc_address.
+ * No GL library is linked: a table belongs to a context. */
+#ifndef TC_GPU_GL_H
+#define TC_GPU_GL_H
+
+#include "core/status.h"
+
+#include <GL/glcorearb.h>
+
+/* X(pointer type, name without "gl") */
+#define TC_GL_FUNCTIONS(X)                                                                                             \
+    X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                                           \
+    X(PFNGLATTACHSHADERPROC, AttachShader)                                                                             \
+    X(PFNGLBEGINQUERYPROC, BeginQuery)                                                                                 \
+    X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                                 \
+    X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                                       \
+    X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                                                                     \
+    X(PFNGLBINDSAMPLERPROC, BindSampler)                                                                               \
+    X(PFNGLBINDTEXTUREPROC, BindTexture)                                                                               \
+    X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                                       \
+    X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                                                   \
+    X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                                           \
+    X(PFNGLBUFFERDATAPROC, BufferData)                                                                                 \
+    X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                                           \
+    X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                                         \
+    X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                                                                           \
+    X(PFNGLCLEARBUFFERIVPROC, ClearBufferiv)                                                                           \
+    X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                                                                         \
+    X(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync)                                                                         \
+    X(PFNGLCOLORMASKPROC, ColorMask)                                                                                   \
+    X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                           \
+    X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                                           \
+    X(PFNGLCREATESHADERPROC, CreateShader)                                                                             \
+    X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                           \
+    X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                                 \
+    X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                           \
+    X(PFNGLDELETEQUERIESPROC, DeleteQueries)                                                                           \
+    X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                               \
+    X(PFNGLDELETESHADERPROC, DeleteShader)                                                                             \
+    X(PFNGLDELETESYNCPROC, DeleteSync)                                                                                 \
+    X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                                         \
+    X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                                                 \
+    X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                                                   \
+    X(PFNGLDEPTHMASKPROC, DepthMask)                                                                                   \
+    X(PFNGLDEPTHRANGEPROC, DepthRange)                                                                                 \
+    X(PFNGLDISABLEPROC, Disable)                                                                                       \
+    X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                                 \
+    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                               \
+    X(PFNGLDRAWBUFFERSPROC, DrawBuffers)                                                                               \
+    X(PFNGLENABLEPROC, Enable)                                                                                         \
+    X(PFNGLENDQUERYPROC, EndQuery)                                                                                     \
+    X(PFNGLFENCESYNCPROC, FenceSync)                                                                                   \
+    X(PFNGLFINISHPROC, Finish)                                                                                         \
+    X(PFNGLFLUSHPROC, Flush)                                                                                           \
+    X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)                                                       \
+    X(PFNGLFRAMEBUFFERTEXTUREPROC, FramebufferTexture)                                                                 \
+    X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                                 \
+    X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                                       \
+    X(PFNGLGENQUERIESPROC, GenQueries)                                                                                 \
+    X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                                                                     \
+    X(PFNGLGENTEXTURESPROC, GenTextures)                                                                               \
+    X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                                       \
+    X(PFNGLGETBOOLEANVPROC, GetBooleanv)                                                                               \
+    X(PFNGLGETERRORPROC, GetError)                                                                                     \
+    X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                               \
+    X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                                   \
+    X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                             \
+    X(PFNGLGETQUERYOBJECTUIVPROC, GetQueryObjectuiv)                                                                   \
+    X(PFNGLGETQUERYOBJECTUI64VPROC, GetQueryObjectui64v)                                                               \
+    X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                                     \
+    X(PFNGLGETSHADERIVPROC, GetShaderiv)                                                                               \
+    X(PFNGLGETSTRINGPROC, GetString)                                                                                   \
+    X(PFNGLGETTEXIMAGEPROC, GetTexImage)                                                                               \
+    X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                                 \
+    X(PFNGLISENABLEDPROC, IsEnabled)                                                                                   \
+    X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                               \
+    X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                               \
+    X(PFNGLREADBUFFERPROC, ReadBuffer)                                                                                 \
+    X(PFNGLREADPIXELSPROC, ReadPixels)                                                                                 \
+    X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                                                               \
+    X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                             \
+    X(PFNGLTEXBUFFERPROC, TexBuffer)                                                                                   \
+    X(PFNGLTEXIMAGE1DPROC, TexImage1D)                                                                                 \
+    X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                                                 \
+    X(PFNGLTEXIMAGE3DPROC, TexImage3D)                                                                                 \
+    X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                                           \
+    X(PFNGLUNIFORM1DPROC, Uniform1d)                                                                                   \
+    X(PFNGLUNIFORM1FPROC, Uniform1f)                                                                                   \
+    X(PFNGLUNIFORM1IPROC, Uniform1i)                                                                                   \
+    X(PFNGLUNIFORM2FPROC, Uniform2f)                                                                                   \
+    X(PFNGLUNIFORM3DPROC, Uniform3d)                                                                                   \
+    X(PFNGLUNIFORM3FPROC, Uniform3f)                                                                                   \
+    X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                                                                 \
+    X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)                                                                     \
+    X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                                 \
+    X(PFNGLVIEWPORTPROC, Viewport)
+
+typedef struct tc_gl {
+#define X(type, name) type name;
+    TC_GL_FUNCTIONS(X)
+#undef X
+    char renderer[128], version[64];
+    int major, minor;
+    GLint max_texture_size, max_texture_3d, max_texture_buffer;
+} tc_gl;
+
+typedef void *(*tc_get_proc)(const char *name);
+
+/* Fills the table for the context that is current. Errors: TC_E_GL, naming the missing function or the version found. */
+tc_status tc_gl_load(tc_gl *gl, tc_get_proc get_proc, tc_error *err);
+/* TC_E_GL with GL's error name if one is pending; `what` says what was being done. */
+tc_status tc_gl_check(const tc_gl *gl, const char *what, tc_error *err);
+
+#endif

@@ -1,0 +1,43 @@
+/* job.h: everything one frame needs, resolved: what a GL driver is handed. */
+#ifndef TC_GPU_JOB_H
+#define TC_GPU_JOB_H
+
+#include "gpu/frame.h"
+#include "gpu/program.h"
+#include "gpu/state.h"
+#include "gpu/upload.h"
+
+typedef struct tc_job {
+    const tc_gl *gl;
+    tc_program_cache *programs;
+    const tc_state *state;
+    const tc_gpu_mesh *mesh;
+    const tc_gpu_transfer *transfer;
+    const tc_frame *frame;
+    const tc_log *log;
+
+    tc_integrator integrator; /* TABLE or INTEGRAL */
+    bool has_imaginary, peel, cell_data, extend; /* extend: data reach beyond the transfer function's knots */
+    double length_unit;        /* half diagonals → unit distances */
+    double transmittance_stop; /* <= 0 … : 1 - opacity stop; negative: never */
+    double map[2];             /* packed scalar → x = s*map[0] + map[1] */
+    double texel[3][2];        /* coordinate → texture coordinate, by axis */
+    double mean[4];            /* running integrals: mean slope */
+
+    int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
+    bool count;
+} tc_job;
+
+typedef struct tc_job_result {
+    double ms_first_hit, ms_march;
+    int passes, z_updates, layers;
+    int64_t rays, rays_lost;
+    int64_t *fragments; /* [passes], only when counting; caller frees */
+} tc_job_result;
+
+/* Program text options of a job: "#define …" lines into out. */
+void tc_job_defines(char *out, size_t capacity, const tc_job *job);
+/* Sets what march and first hit share: rays, mesh textures (units 0…3). The program must be in use. */
+void tc_job_bind_mesh(const tc_job *job, GLuint program);
+
+#endif

@@ -1,0 +1,257 @@
+/* pingpong.c: the rasterization loop of Weiler et al. 2003, 5.2.
+ *
+ * Each pass reads one set of state textures and writes the other. After every z_update_every passes (an even number, so
+ * that the final state of a finished ray stands in set 0) a z-update pass locks finished rays by depth; the occlusion query around it
+ * counts them. A query's result is asked for only when it is there: the loop stays two passes ahead of the last z-update. */
+#include "gpu/pingpong.h"
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "gpu/first_hit.h"
+#include "gpu/pass.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { AHEAD = 2, UNIT_WALK = 4, UNIT_COLOR, UNIT_AT, UNIT_STEPS, UNIT_TF };
+static const GLuint64 PATIENCE_NS = 20000000000ull; /* for a fence */
+
+typedef struct loop {
+    const tc_job *job;
+    tc_job_result *result;
+    tc_error *err;
+    GLuint march, lock; /* programs */
+    GLuint lock_query;
+    GLsync lock_fence;
+    GLuint *pass_query; /* counting: one each pass */
+    size_t pass_capacity;
+    int64_t open;       /* rays not known to be finished */
+} loop;
+
+static void bind_transfer(const tc_job *job, GLuint program)
+{
+    const tc_gl *gl = job->gl;
+    tc_pass_vec2(gl, program, "tf_map", job->map[0], job->map[1]);
+    if (job->integrator == TC_INTEGRATOR_TABLE) {
+        tc_pass_texture(gl, program, "tf_table", UNIT_TF, GL_TEXTURE_3D, job->transfer->table);
+        tc_pass_vec2(gl, program, "tf_texel[0]", job->texel[0][0], job->texel[0][1]);
+        tc_pass_vec2(gl, program, "tf_texel[1]", job->texel[1][0], job->texel[1][1]);
+        tc_pass_vec2(gl, program, "tf_texel[2]", job->texel[2][0], job->texel[2][1]);
+    } else {
+        tc_pass_texture(gl, program, "tf_point", UNIT_TF, GL_TEXTURE_1D, job->transfer->point);
+        tc_pass_texture(gl, program, "tf_cumulative", UNIT_TF + 1, GL_TEXTURE_1D, job->transfer->cumulative);
+        tc_pass_vec2(gl, program, "tf_texel", job->texel[0][0], job->texel[0][1]);
+        tc_pass_vec4(gl, program, "tf_mean", job->mean);
+    }
+}
+
+static tc_status prepare_programs(loop *l)
+{
+    const tc_job *job = l->job;
+    const tc_gl *gl = job->gl;
+    char defines[256];
+    tc_job_defines(defines, sizeof defines, job);
+    const tc_program_source march = {"screen.vert", "march.frag", defines,
+                                     job->integrator == TC_INTEGRATOR_TABLE
+                                         ? "integrator.glsl=integrate_table.glsl"
+                                         : "integrator.glsl=integrate_integral.glsl"};
+    const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL};
+    tc_status status = tc_program_get(&l->march, job->programs, &march, l->err);
+    if (status == TC_OK)
+        status = tc_program_get(&l->lock, job->programs, &lock, l->err);
+    if (status != TC_OK)
+        return status;
+    gl->UseProgram(l->march);
+    tc_job_bind_mesh(job, l->march);
+    bind_transfer(job, l->march);
+    tc_pass_int(gl, l->march, "steps_per_pass", job->steps_per_pass);
+    tc_pass_float(gl, l->march, "length_unit", job->length_unit);
+    tc_pass_float(gl, l->march, "transmittance_stop", job->transmittance_stop);
+    return TC_OK;
+}
+
+static void clear_state(const tc_job *job)
+{
+    const tc_gl *gl = job->gl;
+    /* An empty ray: no colour, no optical depth, or full transmittance. */
+    const GLfloat empty[4] = {0, 0, 0, job->integrator == TC_INTEGRATOR_TABLE ? 1.0f : 0.0f};
+    const GLuint none[4] = {0, 0, 0, 0};
+    gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->set[0].framebuffer);
+    gl->ClearBufferfv(GL_COLOR, 1, empty);
+    if (job->count)
+        gl->ClearBufferuiv(GL_COLOR, 3, none);
+}
+
+/* Issues a z-update pass with its query. */
+static void issue_lock(loop *l)
+{
+    const tc_gl *gl = l->job->gl;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, l->job->state->lock_framebuffer);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->DepthMask(GL_TRUE);
+    gl->UseProgram(l->lock);
+    tc_pass_texture(gl, l->lock, "state_walk", UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[0].walk);
+    gl->BeginQuery(GL_SAMPLES_PASSED, l->lock_query);
+    tc_pass_screen(gl);
+    gl->EndQuery(GL_SAMPLES_PASSED);
+    gl->DepthMask(GL_FALSE);
+    if (l->job->z_update_every < 0)
+        gl->Disable(GL_DEPTH_TEST); /* march as if nothing were locked: the query alone is wanted */
+    l->lock_fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl->Flush();
+    l->result->z_updates++;
+}
+
+/* Waits on the fence behind the last z-update (passes issued since keep the GPU busy), then reads its count. */
+static tc_status collect_lock(loop *l)
+{
+    const tc_gl *gl = l->job->gl;
+    GLenum state = gl->ClientWaitSync(l->lock_fence, GL_SYNC_FLUSH_COMMANDS_BIT, PATIENCE_NS);
+    gl->DeleteSync(l->lock_fence);
+    l->lock_fence = NULL;
+    if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED)
+        return tc_fail(l->err, TC_E_GL, "%s did not finish a pass within %d s; use fewer --steps-per-pass",
+                       gl->renderer, (int)(PATIENCE_NS / 1000000000ull));
+    GLuint available = 0, finished = 0;
+    do
+        gl->GetQueryObjectuiv(l->lock_query, GL_QUERY_RESULT_AVAILABLE, &available);
+    while (!available);
+    gl->GetQueryObjectuiv(l->lock_query, GL_QUERY_RESULT, &finished);
+    l->open -= finished;
+    return TC_OK;
+}
+
+static tc_status issue_pass(loop *l, int from)
+{
+    const tc_job *job = l->job;
+    const tc_gl *gl = job->gl;
+    const tc_state_set *read = &job->state->set[from], *write = &job->state->set[1 - from];
+    gl->BindFramebuffer(GL_FRAMEBUFFER, write->framebuffer);
+    gl->UseProgram(l->march);
+    tc_pass_texture(gl, l->march, "state_walk", UNIT_WALK, GL_TEXTURE_2D, read->walk);
+    tc_pass_texture(gl, l->march, "state_color", UNIT_COLOR, GL_TEXTURE_2D, read->color);
+    tc_pass_texture(gl, l->march, "state_at", UNIT_AT, GL_TEXTURE_2D, read->at);
+    size_t pass = (size_t)l->result->passes++;
+    if (!job->count) {
+        tc_pass_screen(gl);
+        return TC_OK;
+    }
+    tc_pass_texture(gl, l->march, "state_steps", UNIT_STEPS, GL_TEXTURE_2D, read->steps);
+    if (pass >= l->pass_capacity) {
+        size_t capacity = l->pass_capacity ? 2 * l->pass_capacity : 256;
+        GLuint *grown = tc_realloc(l->pass_query, capacity, sizeof *grown);
+        if (!grown)
+            return tc_fail_memory(l->err, "the pass counters", capacity, sizeof *grown);
+        l->pass_query = grown;
+        gl->GenQueries((GLsizei)(capacity - l->pass_capacity), grown + l->pass_capacity);
+        l->pass_capacity = capacity;
+    }
+    gl->BeginQuery(GL_SAMPLES_PASSED, l->pass_query[pass]);
+    tc_pass_screen(gl);
+    gl->EndQuery(GL_SAMPLES_PASSED);
+    return TC_OK;
+}
+
+/* Passes until every ray of this layer is finished, or until no cell can be left to step through. */
+static tc_status march_layer(loop *l)
+{
+    const tc_job *job = l->job;
+    const tc_gl *gl = job->gl;
+    const GLfloat far_depth = 1;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->lock_framebuffer);
+    gl->DepthMask(GL_TRUE);
+    gl->ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    gl->DepthMask(GL_FALSE);
+    l->open = (int64_t)job->state->width * job->state->height;
+    issue_lock(l); /* rays that miss the mesh */
+    tc_status status = collect_lock(l);
+    if (status != TC_OK || l->open == 0)
+        return status;
+    if (l->result->layers == 0)
+        l->result->rays = l->open;
+    l->result->layers++;
+    int interval = job->z_update_every > 0 ? job->z_update_every : 2, since = 0, ahead = 0;
+    int64_t passes = 0;
+    int64_t limit = ((int64_t)job->mesh->n_cell + 2) / job->steps_per_pass + 2 * interval + AHEAD + 4;
+    bool waiting = false;
+    while (status == TC_OK && l->open > 0 && passes < limit) {
+        for (int from = 0; from < 2 && status == TC_OK; from++, passes++, since++)
+            status = issue_pass(l, from);
+        if (waiting)
+            ahead += 2;
+        if (status == TC_OK && waiting && ahead >= AHEAD) {
+            status = collect_lock(l);
+            waiting = false;
+        }
+        if (status == TC_OK && !waiting && since >= interval && l->open > 0) {
+            issue_lock(l);
+            waiting = true;
+            since = 0;
+            ahead = 0;
+        }
+    }
+    if (waiting) {
+        tc_status last = collect_lock(l);
+        status = status == TC_OK ? last : status;
+    }
+    return status;
+}
+
+static tc_status read_fragments(loop *l)
+{
+    const tc_gl *gl = l->job->gl;
+    l->result->fragments = tc_alloc((size_t)l->result->passes, sizeof *l->result->fragments);
+    if (!l->result->fragments)
+        return tc_fail_memory(l->err, "the pass counters", (size_t)l->result->passes, sizeof *l->result->fragments);
+    for (int i = 0; i < l->result->passes; i++) {
+        GLuint n = 0;
+        gl->GetQueryObjectuiv(l->pass_query[i], GL_QUERY_RESULT, &n);
+        l->result->fragments[i] = n;
+    }
+    return TC_OK;
+}
+
+tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err)
+{
+    const tc_gl *gl = job->gl;
+    memset(out, 0, sizeof *out);
+    loop l = {.job = job, .result = out, .err = err};
+    double start = tc_now_ms();
+    clear_state(job);
+    tc_status status = tc_first_hit(job, 0, err);
+    if (status == TC_OK)
+        status = prepare_programs(&l);
+    gl->Finish();
+    out->ms_first_hit = tc_now_ms() - start;
+    start = tc_now_ms();
+    gl->GenQueries(1, &l.lock_query);
+    gl->DepthFunc(GL_LESS);
+    for (int layer = 0; status == TC_OK; layer++) {
+        int before = out->layers;
+        status = march_layer(&l);
+        if (status != TC_OK || out->layers == before)
+            break; /* no ray entered */
+        if (l.open > 0) {
+            out->rays_lost = l.open;
+            break;
+        }
+        if (!job->peel)
+            break;
+        if ((size_t)layer > job->mesh->n_face) {
+            out->rays_lost = l.open;
+            break;
+        }
+        status = tc_first_hit(job, layer + 1, err);
+        if (status == TC_OK)
+            status = prepare_programs(&l);
+    }
+    gl->Finish();
+    out->ms_march = tc_now_ms() - start;
+    if (status == TC_OK && job->count)
+        status = read_fragments(&l);
+    gl->DeleteQueries(1, &l.lock_query);
+    if (l.pass_query)
+        gl->DeleteQueries((GLsizei)l.pass_capacity, l.pass_query);
+    free(l.pass_query);
+    return status == TC_OK ? tc_gl_check(gl, "marching", err) : status;
+}

@@ -1,0 +1,255 @@
+/* program.c: assembles, compiles and caches GL programs.
+ * #include is resolved once per file; `#line` carries file*10000 + line, since llvmpipe's logs lose the source-string
+ * number. */
+#include "gpu/program.h"
+
+#include "core/memory.h"
+#include "core/parallel.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LINES_PER_FILE = 10000, MAX_FILES = 64, LOG_BYTES = 4096 };
+
+typedef struct text {
+    char *data;
+    size_t n, capacity;
+} text;
+
+typedef struct assembly {
+    text out;
+    bool included[MAX_FILES];
+    const char *alias;
+    tc_error *err;
+} assembly;
+
+static tc_status text_add(text *t, const char *data, size_t n, tc_error *err)
+{
+    if (t->n + n + 1 > t->capacity) {
+        size_t capacity = (t->n + n + 1) * 2;
+        char *grown = tc_realloc(t->data, capacity, 1);
+        if (!grown)
+            return tc_fail_memory(err, "a shader's text", capacity, 1);
+        t->data = grown;
+        t->capacity = capacity;
+    }
+    memcpy(t->data + t->n, data, n);
+    t->n += n;
+    t->data[t->n] = 0;
+    return TC_OK;
+}
+
+static int file_index(const char *name, size_t n)
+{
+    for (int i = 0; tc_shader_files[i].name && i < MAX_FILES; i++)
+        if (strlen(tc_shader_files[i].name) == n && strncmp(tc_shader_files[i].name, name, n) == 0)
+            return i;
+    return -1;
+}
+
+/* alias "from=to": gives the index of `to` where name is `from`. */
+static int resolve(const assembly *a, const char *name, size_t n)
+{
+    if (a->alias) {
+        const char *equal = strchr(a->alias, '=');
+        if (equal && (size_t)(equal - a->alias) == n && strncmp(a->alias, name, n) == 0)
+            return file_index(equal + 1, strlen(equal + 1));
+    }
+    return file_index(name, n);
+}
+
+static tc_status add_file(assembly *a, int index, int depth)
+{
+    if (a->included[index])
+        return TC_OK;
+    a->included[index] = true;
+    if (depth > 8)
+        return tc_fail(a->err, TC_E_GL, "shader %s: includes nest too deep", tc_shader_files[index].name);
+    char line_directive[64];
+    const char *p = tc_shader_files[index].text;
+    int line = 1;
+    snprintf(line_directive, sizeof line_directive, "#line %d\n", index * LINES_PER_FILE + line);
+    tc_status status = text_add(&a->out, line_directive, strlen(line_directive), a->err);
+    while (status == TC_OK && *p) {
+        const char *end = strchr(p, '\n');
+        end = end ? end + 1 : p + strlen(p);
+        if (strncmp(p, "#include \"", 10) == 0) {
+            const char *name = p + 10, *quote = strchr(name, '"');
+            int other = quote ? resolve(a, name, (size_t)(quote - name)) : -1;
+            if (other < 0)
+                return tc_fail(a->err, TC_E_GL, "shader %s:%d includes a file that does not exist",
+                               tc_shader_files[index].name, line);
+            status = add_file(a, other, depth + 1);
+            snprintf(line_directive, sizeof line_directive, "#line %d\n", index * LINES_PER_FILE + line + 1);
+            if (status == TC_OK)
+                status = text_add(&a->out, line_directive, strlen(line_directive), a->err);
+        } else {
+            status = text_add(&a->out, p, (size_t)(end - p), a->err);
+        }
+        line++;
+        p = end;
+    }
+    return status;
+}
+
+tc_status tc_program_text(char **out, const char *file, const char *defines, const char *alias, tc_error *err)
+{
+    *out = NULL;
+    assembly a = {.alias = alias, .err = err};
+    int index = file_index(file, strlen(file));
+    if (index < 0)
+        return tc_fail(err, TC_E_GL, "there is no shader %s", file);
+    static const char head[] = "#version 430 core\n";
+    tc_status status = text_add(&a.out, head, sizeof head - 1, err);
+    if (status == TC_OK && defines)
+        status = text_add(&a.out, defines, strlen(defines), err);
+    if (status == TC_OK)
+        status = add_file(&a, index, 0);
+    if (status != TC_OK) {
+        free(a.out.data);
+        return status;
+    }
+    *out = a.out.data;
+    return TC_OK;
+}
+
+typedef struct entry {
+    char *vertex, *fragment; /* final texts: the key */
+    GLuint program;
+} entry;
+
+struct tc_program_cache {
+    const tc_gl *gl;
+    entry *entries;
+    size_t n;
+    double ms;
+};
+
+tc_status tc_program_cache_create(tc_program_cache **out, const tc_gl *gl, tc_error *err)
+{
+    *out = tc_calloc(1, sizeof **out);
+    if (!*out)
+        return tc_fail_memory(err, "the program cache", 1, sizeof **out);
+    (*out)->gl = gl;
+    return TC_OK;
+}
+
+/* Turns the first "0:1234567(…)" or "0(1234567)" of a compiler's log into the file's name and line. */
+static tc_status compile_error(const char *log, const char *file, tc_error *err)
+{
+    for (const char *p = log; *p; p++) {
+        char *end;
+        long number = strtol(p, &end, 10);
+        if (end != p && number > 20) {
+            long index = number / LINES_PER_FILE, line = number % LINES_PER_FILE;
+            int n = 0;
+            while (tc_shader_files[n].name)
+                n++;
+            if (index < n)
+                return tc_fail(err, TC_E_GL, "shader %s:%ld: %.600s", tc_shader_files[index].name, line, end);
+        }
+        if (end != p)
+            p = end - 1;
+    }
+    return tc_fail(err, TC_E_GL, "shader %s: %.600s", file, log);
+}
+
+static tc_status compile(GLuint *shader, const tc_gl *gl, GLenum stage, const char *source, const char *file,
+                         tc_error *err)
+{
+    *shader = gl->CreateShader(stage);
+    gl->ShaderSource(*shader, 1, &source, NULL);
+    gl->CompileShader(*shader);
+    GLint ok = 0;
+    gl->GetShaderiv(*shader, GL_COMPILE_STATUS, &ok);
+    if (ok)
+        return TC_OK;
+    char log[LOG_BYTES] = "";
+    gl->GetShaderInfoLog(*shader, sizeof log, NULL, log);
+    gl->DeleteShader(*shader);
+    *shader = 0;
+    return compile_error(log, file, err);
+}
+
+static tc_status build(GLuint *program, const tc_gl *gl, const char *vertex_text, const char *fragment_text,
+                       const tc_program_source *source, tc_error *err)
+{
+    GLuint vertex = 0, fragment = 0;
+    *program = 0;
+    tc_status status = compile(&vertex, gl, GL_VERTEX_SHADER, vertex_text, source->vertex, err);
+    if (status == TC_OK)
+        status = compile(&fragment, gl, GL_FRAGMENT_SHADER, fragment_text, source->fragment, err);
+    if (status == TC_OK) {
+        *program = gl->CreateProgram();
+        gl->AttachShader(*program, vertex);
+        gl->AttachShader(*program, fragment);
+        gl->LinkProgram(*program);
+        GLint ok = 0;
+        gl->GetProgramiv(*program, GL_LINK_STATUS, &ok);
+        if (!ok) {
+            char log[LOG_BYTES] = "";
+            gl->GetProgramInfoLog(*program, sizeof log, NULL, log);
+            gl->DeleteProgram(*program);
+            *program = 0;
+            status = tc_fail(err, TC_E_GL, "linking %s and %s: %.600s", source->vertex, source->fragment, log);
+        }
+    }
+    if (vertex)
+        gl->DeleteShader(vertex);
+    if (fragment)
+        gl->DeleteShader(fragment);
+    return status;
+}
+
+tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_program_source *source, tc_error *err)
+{
+    *program = 0;
+    char *vertex = NULL, *fragment = NULL;
+    tc_status status = tc_program_text(&vertex, source->vertex, source->defines, source->alias, err);
+    if (status == TC_OK)
+        status = tc_program_text(&fragment, source->fragment, source->defines, source->alias, err);
+    if (status != TC_OK)
+        goto done;
+    for (size_t i = 0; i < cache->n; i++)
+        if (strcmp(cache->entries[i].vertex, vertex) == 0 && strcmp(cache->entries[i].fragment, fragment) == 0) {
+            *program = cache->entries[i].program;
+            goto done;
+        }
+    entry *grown = tc_realloc(cache->entries, cache->n + 1, sizeof *grown);
+    if (!grown) {
+        status = tc_fail_memory(err, "the program cache", cache->n + 1, sizeof *grown);
+        goto done;
+    }
+    cache->entries = grown;
+    double start = tc_now_ms();
+    status = build(program, cache->gl, vertex, fragment, source, err);
+    cache->ms += tc_now_ms() - start;
+    if (status == TC_OK) {
+        grown[cache->n++] = (entry){vertex, fragment, *program};
+        vertex = fragment = NULL;
+    }
+done:
+    free(vertex);
+    free(fragment);
+    return status;
+}
+
+double tc_program_cache_ms(const tc_program_cache *cache)
+{
+    return cache->ms;
+}
+
+void tc_program_cache_destroy(tc_program_cache **cache)
+{
+    if (!*cache)
+        return;
+    for (size_t i = 0; i < (*cache)->n; i++) {
+        (*cache)->gl->DeleteProgram((*cache)->entries[i].program);
+        free((*cache)->entries[i].vertex);
+        free((*cache)->entries[i].fragment);
+    }
+    free((*cache)->entries);
+    free(*cache);
+    *cache = NULL;
+}

@@ -1,0 +1,35 @@
+/* program.h: GL programs assembled from the real .glsl files that are embedded at build time. */
+#ifndef TC_GPU_PROGRAM_H
+#define TC_GPU_PROGRAM_H
+
+#include "gpu/gl.h"
+
+typedef struct tc_shader_file {
+    const char *name, *text;
+} tc_shader_file;
+
+/* Every shader file; {NULL, NULL} ends the list. */
+extern const tc_shader_file tc_shader_files[];
+
+/* What a program is made of. `defines` are lines such as "#define PEEL\n" (may be ""); `aliases` are pairs of include
+ * names, "integrator.glsl=integrate_table.glsl" or NULL. */
+typedef struct tc_program_source {
+    const char *vertex, *fragment;
+    const char *defines;
+    const char *alias;
+} tc_program_source;
+
+typedef struct tc_program_cache tc_program_cache;
+
+/* Programs live in the cache; equal final text gives the same program. */
+tc_status tc_program_cache_create(tc_program_cache **out, const tc_gl *gl, tc_error *err);
+/* Errors: TC_E_GL with the compiler's first message as file:line. ms_compile is added to. */
+tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_program_source *source, tc_error *err);
+double tc_program_cache_ms(const tc_program_cache *cache);
+void tc_program_cache_destroy(tc_program_cache **cache);
+
+/* The text of one shader stage: version line, defines, the file with #include resolved once each. malloc'd. `alias`
+ * replaces one include name by another ("integrator.glsl=integrate_table.glsl"). Errors: TC_E_GL, TC_E_MEMORY. */
+tc_status tc_program_text(char **out, const char *file, const char *defines, const char *alias, tc_error *err);
+
+#endif

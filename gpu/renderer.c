@@ -1,0 +1,301 @@
+/* renderer.c: keeps mesh, transfer function, state and programs in a GL context and renders frames from them. */
+#include "gpu/renderer.h"
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "gpu/pass.h"
+#include "gpu/pingpong.h"
+#include "gpu/transfer_gpu.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { AUTO_STEPS = 32, AUTO_Z_PAPER = 14 };
+
+struct tc_gpu_renderer {
+    tc_context *context;
+    tc_program_cache *programs;
+    GLuint vertex_array;
+    int threads;
+
+    uint64_t mesh_serial, scalar_serial; /* of what is uploaded; 0: nothing */
+    tc_gpu_mesh mesh;
+    double center[3], scale, scalar_lo, scalar_hi, ms_pack;
+
+    tc_transfer_gpu transfer;
+    tc_state state;
+    int64_t *fragments;
+};
+
+tc_status tc_gpu_renderer_create(tc_gpu_renderer **out, const char *name, tc_get_proc get_proc, int threads,
+                                 const tc_log *log, tc_error *err)
+{
+    *out = NULL;
+    tc_gpu_renderer *r = tc_calloc(1, sizeof *r);
+    if (!r)
+        return tc_fail_memory(err, "a renderer", 1, sizeof *r);
+    r->threads = threads;
+    tc_status status = get_proc ? tc_context_create_host(&r->context, get_proc, err)
+                                : tc_context_create(&r->context, name, log, err);
+    if (status == TC_OK)
+        status = tc_program_cache_create(&r->programs, &r->context->gl, err);
+    if (status == TC_OK)
+        r->context->gl.GenVertexArrays(1, &r->vertex_array);
+    if (status != TC_OK) {
+        tc_gpu_renderer_destroy(&r);
+        return status;
+    }
+    *out = r;
+    return TC_OK;
+}
+
+void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer)
+{
+    tc_gpu_renderer *r = *renderer;
+    if (!r)
+        return;
+    if (r->context && tc_context_make_current(r->context, NULL) == TC_OK) {
+        const tc_gl *gl = &r->context->gl;
+        tc_gpu_mesh_finish(&r->mesh, gl);
+        tc_transfer_gpu_finish(&r->transfer, gl);
+        tc_state_finish(&r->state, gl);
+        tc_program_cache_destroy(&r->programs);
+        gl->DeleteVertexArrays(1, &r->vertex_array);
+    }
+    tc_context_destroy(&r->context);
+    free(r->fragments);
+    free(r);
+    *renderer = NULL;
+}
+
+const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer)
+{
+    return renderer->context;
+}
+
+static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, tc_render_stats *stats, tc_error *err)
+{
+    const tc_gl *gl = &r->context->gl;
+    if (r->mesh_serial == mesh->serial && r->scalar_serial == mesh->scalar_serial)
+        return TC_OK;
+    tc_gpu_mesh_finish(&r->mesh, gl);
+    r->mesh_serial = r->scalar_serial = 0;
+    tc_pack pack;
+    tc_status status = tc_pack_build(&pack, mesh, err);
+    if (status != TC_OK)
+        return status;
+    status = tc_gpu_mesh_upload(&r->mesh, gl, &pack, err);
+    if (status == TC_OK) {
+        memcpy(r->center, pack.center, sizeof r->center);
+        r->scale = pack.scale;
+        r->scalar_lo = pack.scalar_lo;
+        r->scalar_hi = pack.scalar_hi;
+        r->mesh_serial = mesh->serial;
+        r->scalar_serial = mesh->scalar_serial;
+        stats->ms_pack = pack.ms;
+        stats->ms_upload = r->mesh.ms;
+    }
+    tc_pack_finish(&pack);
+    return status;
+}
+
+static tc_status ensure_state(tc_gpu_renderer *r, const tc_render_options *options, bool peeling, tc_error *err)
+{
+    tc_state *s = &r->state;
+    if (s->width == options->width && s->height == options->height && s->counting == options->count &&
+        s->peeling == peeling)
+        return TC_OK;
+    tc_state_finish(s, &r->context->gl);
+    return tc_state_create(s, &r->context->gl, options->width, options->height, options->count, peeling, err);
+}
+
+/* Steps per pass and z-update interval where the caller left them to us. */
+static void choose_passes(tc_job *job, const tc_render_options *options)
+{
+    job->steps_per_pass = options->steps_per_pass > 0 ? options->steps_per_pass : AUTO_STEPS;
+    int every = options->z_update_every;
+    if (every == 0)
+        every = job->steps_per_pass >= 8 ? 2 : AUTO_Z_PAPER; /* 14: Weiler et al. 2003, 5.2 */
+    job->z_update_every = every < 0 ? -1 : (every + 1) / 2 * 2;
+}
+
+static void count_steps(tc_render_stats *stats, tc_gpu_renderer *r)
+{
+    const tc_gl *gl = &r->context->gl;
+    size_t n = (size_t)r->state.width * (size_t)r->state.height;
+    uint32_t *steps = tc_alloc(n, sizeof *steps);
+    if (!steps)
+        return;
+    gl->BindTexture(GL_TEXTURE_2D, r->state.set[0].steps);
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl->GetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, steps);
+    stats->steps = 0;
+    stats->steps_max = 0;
+    for (size_t i = 0; i < n; i++) {
+        stats->steps += steps[i];
+        if (steps[i] > stats->steps_max)
+            stats->steps_max = steps[i];
+    }
+    free(steps);
+}
+
+static tc_status resolve(tc_gpu_renderer *r, const tc_job *job, tc_error *err)
+{
+    const tc_gl *gl = &r->context->gl;
+    char defines[256];
+    tc_job_defines(defines, sizeof defines, job);
+    const tc_program_source source = {"screen.vert", "resolve.frag", defines, NULL};
+    GLuint program;
+    tc_status status = tc_program_get(&program, r->programs, &source, err);
+    if (status != TC_OK)
+        return status;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, r->state.result_framebuffer);
+    gl->Viewport(0, 0, r->state.width, r->state.height);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->UseProgram(program);
+    tc_pass_texture(gl, program, "state_color", 0, GL_TEXTURE_2D, r->state.set[0].color);
+    tc_pass_screen(gl);
+    gl->Finish();
+    return tc_gl_check(gl, "resolving the picture", err);
+}
+
+static void fill_stats(tc_render_stats *stats, tc_gpu_renderer *r, const tc_job *job, const tc_job_result *result)
+{
+    snprintf(stats->context, sizeof stats->context, "%s", r->context->kind->name);
+    snprintf(stats->gl_renderer, sizeof stats->gl_renderer, "%s", r->context->gl.renderer);
+    snprintf(stats->gl_version, sizeof stats->gl_version, "%d.%d", r->context->gl.major, r->context->gl.minor);
+    snprintf(stats->driver, sizeof stats->driver, "pingpong");
+    snprintf(stats->stepper, sizeof stats->stepper, "signs");
+    snprintf(stats->integrator, sizeof stats->integrator, "%s",
+             job->integrator == TC_INTEGRATOR_TABLE ? "table" : "integral");
+    stats->gpu_bytes_mesh = (double)(r->mesh.cells.bytes + r->mesh.vertices.bytes);
+    stats->gpu_bytes_other = (double)(r->mesh.faces.bytes + r->mesh.cell_scalar.bytes);
+    stats->gpu_bytes_table = (double)r->transfer.textures.bytes;
+    stats->gpu_bytes_state = (double)r->state.bytes;
+    stats->steps_per_pass = job->steps_per_pass;
+    stats->z_update_every = job->z_update_every;
+    stats->passes = result->passes;
+    stats->z_updates = result->z_updates;
+    stats->layers = result->layers;
+    stats->rays = result->rays;
+    stats->rays_lost = result->rays_lost;
+    stats->ms_first_hit = result->ms_first_hit;
+    stats->ms_march = result->ms_march;
+}
+
+tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu_frame *frame, tc_error *err)
+{
+    tc_status status = tc_context_make_current(r->context, err);
+    if (status != TC_OK)
+        return status;
+    const tc_gl *gl = &r->context->gl;
+    const tc_mesh *mesh = frame->mesh;
+    const tc_render_options *options = frame->options;
+    bool peel = mesh->report.reentry == TC_REENTRY_PEEL;
+    double compile_before = tc_program_cache_ms(r->programs);
+    gl->BindVertexArray(r->vertex_array);
+    gl->Disable(GL_BLEND);
+    gl->Disable(GL_SCISSOR_TEST);
+    gl->Disable(GL_CULL_FACE);
+    gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl->DepthRange(0, 1);
+
+    status = ensure_mesh(r, mesh, stats, err);
+    if (status == TC_OK)
+        status = ensure_state(r, options, peel, err);
+    tc_job job = {.gl = gl, .programs = r->programs, .state = &r->state, .mesh = &r->mesh, .log = frame->log};
+    if (status == TC_OK) {
+        job.length_unit = 1 / (r->scale * frame->unit_distance);
+        job.cell_data = r->mesh.cell_scalar.texture != 0;
+        const tc_transfer_gpu_request request = {
+            .transfer = frame->transfer,
+            .options = options,
+            .scalar = {r->scalar_lo, r->scalar_hi},
+            .length_max = mesh->report.longest_edge / frame->unit_distance,
+            .threads = r->threads,
+        };
+        status = tc_transfer_gpu_ensure(&r->transfer, &job, &request, gl, stats, err);
+    }
+    if (status != TC_OK)
+        return status;
+
+    tc_frame rays;
+    tc_frame_build(&rays, frame->rays, r->center, r->scale);
+    job.frame = &rays;
+    job.transfer = &r->transfer.textures;
+    job.has_imaginary = mesh->n_imaginary > 0;
+    job.peel = peel;
+    job.transmittance_stop = options->opacity_stop >= 1 ? -1 : 1 - options->opacity_stop;
+    job.count = options->count;
+    choose_passes(&job, options);
+
+    double start = tc_now_ms();
+    tc_job_result result;
+    status = tc_pingpong_frame(&result, &job, err);
+    if (status == TC_OK)
+        status = resolve(r, &job, err);
+    stats->ms_frame = tc_now_ms() - start;
+    stats->ms_compile = tc_program_cache_ms(r->programs) - compile_before;
+    fill_stats(stats, r, &job, &result);
+    if (status == TC_OK && options->count) {
+        free(r->fragments);
+        r->fragments = result.fragments;
+        stats->fragments_per_pass = r->fragments;
+        stats->n_fragments_per_pass = (size_t)result.passes;
+        count_steps(stats, r);
+    } else {
+        free(result.fragments);
+    }
+    if (status == TC_OK && result.rays_lost > 0)
+        status = tc_fail(err, TC_E_LOST, "%lld of %lld rays were lost; the picture is not to be trusted, please report it",
+                         (long long)result.rays_lost, (long long)result.rays);
+    return status;
+}
+
+tc_status tc_gpu_read(float *rgba, tc_render_stats *stats, tc_gpu_renderer *r, tc_error *err)
+{
+    tc_status status = tc_context_make_current(r->context, err);
+    if (status != TC_OK)
+        return status;
+    const tc_gl *gl = &r->context->gl;
+    double start = tc_now_ms();
+    int width = r->state.width, height = r->state.height;
+    size_t row_floats = 4 * (size_t)width;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, r->state.result_framebuffer);
+    gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl->ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, rgba);
+    for (int y = 0; y < height / 2; y++) { /* GL's row 0 is at the bottom */
+        float *a = rgba + (size_t)y * row_floats, *b = rgba + (size_t)(height - 1 - y) * row_floats;
+        for (size_t i = 0; i < row_floats; i++) {
+            float t = a[i];
+            a[i] = b[i];
+            b[i] = t;
+        }
+    }
+    stats->ms_readback = tc_now_ms() - start;
+    return tc_gl_check(gl, "reading the picture back", err);
+}
+
+tc_status tc_gpu_draw(tc_gpu_renderer *r, unsigned framebuffer, tc_error *err)
+{
+    const tc_gl *gl = &r->context->gl;
+    const tc_program_source source = {"screen.vert", "copy.frag", "", NULL};
+    GLuint program;
+    tc_status status = tc_program_get(&program, r->programs, &source, err);
+    if (status != TC_OK)
+        return status;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl->Viewport(0, 0, r->state.width, r->state.height);
+    gl->UseProgram(program);
+    tc_pass_texture(gl, program, "picture", 0, GL_TEXTURE_2D, r->state.result);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Enable(GL_BLEND);
+    gl->BlendEquation(GL_FUNC_ADD);
+    gl->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    tc_pass_screen(gl);
+    gl->Disable(GL_BLEND);
+    return tc_gl_check(gl, "drawing into the host's framebuffer", err);
+}

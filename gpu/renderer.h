@@ -1,0 +1,35 @@
+/* renderer.h: a GL context with what is uploaded into it: mesh, transfer function, state, programs. Keeps what still
+ * fits the next frame. */
+#ifndef TC_GPU_RENDERER_H
+#define TC_GPU_RENDERER_H
+
+#include "gpu/context.h"
+#include "gpu/job.h"
+
+typedef struct tc_gpu_renderer tc_gpu_renderer;
+
+/* One frame's inputs; all borrowed. options is resolved: no zero means "default" any more except where renderer.c says. */
+typedef struct tc_gpu_frame {
+    const tc_mesh *mesh;
+    const tc_transfer *transfer;
+    const tc_rays *rays;
+    const tc_render_options *options;
+    double unit_distance;
+    const tc_log *log;
+} tc_gpu_frame;
+
+/* name as in tc_context_create; get_proc not NULL: a context of the host's. */
+tc_status tc_gpu_renderer_create(tc_gpu_renderer **out, const char *name, tc_get_proc get_proc, int threads,
+                                 const tc_log *log, tc_error *err);
+void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer);
+const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer);
+
+/* Packs, uploads and compiles what changed, then renders; the result stays in a texture. Fills stats.
+ * Errors: TC_E_GL, TC_E_MEMORY, TC_E_LOST (the picture is there). */
+tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *renderer, const tc_gpu_frame *frame, tc_error *err);
+/* The last result as an image, row 0 at the top. rgba [height][width][4], the caller's. */
+tc_status tc_gpu_read(float *rgba, tc_render_stats *stats, tc_gpu_renderer *renderer, tc_error *err);
+/* The last result drawn over a framebuffer of the host's context; its GL state is put back. */
+tc_status tc_gpu_draw(tc_gpu_renderer *renderer, unsigned framebuffer, tc_error *err);
+
+#endif

@@ -1,0 +1,47 @@
+// integrate_table.glsl: a segment's colour and opacity from the three-dimensional pre-integrated table
+// (Röttger et al. 2000; Weiler et al. 2003, 3.3 and 4; transfer_functions/table.h).
+
+uniform sampler3D tf_table;      // associated colour and opacity over (front, back, length)
+uniform vec2 tf_map;             // scalar → x = s * tf_map.x + tf_map.y in [0, 1]
+uniform vec2 tf_texel[3];        // x front, x back, length in unit distances → texture coordinate v * .x + .y
+
+struct Integral {
+    vec4 color; // rgb, transmittance
+    float front;
+};
+
+vec3 tf_coordinate(float front, float back, float l)
+{
+    vec2 x = clamp(vec2(front, back) * tf_map.x + tf_map.y, 0.0, 1.0);
+    return vec3(x.x * tf_texel[0].x + tf_texel[0].y, x.y * tf_texel[1].x + tf_texel[1].y, l * tf_texel[2].x + tf_texel[2].y);
+}
+
+Integral integral_begin(vec4 color, float s)
+{
+    return Integral(color, s);
+}
+
+void integral_enter(inout Integral i, float s)
+{
+    i.front = s;
+}
+
+void integral_add(inout Integral i, Segment segment, float l)
+{
+    vec4 c = textureLod(tf_table, tf_coordinate(i.front, segment.s1, l), 0.0);
+    if (segment.real) {
+        i.color.rgb += i.color.a * c.rgb;
+        i.color.a *= 1.0 - c.a;
+    }
+    i.front = segment.s1;
+}
+
+float integral_transmittance(Integral i)
+{
+    return i.color.a;
+}
+
+vec4 integral_end(Integral i)
+{
+    return i.color;
+}

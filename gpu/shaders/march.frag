@@ -1,0 +1,76 @@
+// march.frag: one pass of the ping-pong driver: K cell steps of every ray that is not finished.
+// Weiler et al. 2003, 3.4 and 5.1 (K = 1 is the paper's loop). Reads one set of state textures, writes the other.
+
+#include "stepper.glsl"
+#include "integrator.glsl"
+
+uniform isampler2D state_walk; // cell, a, b, c
+uniform sampler2D state_color; // the integrator's accumulated colour and transmittance
+uniform sampler2D state_at;    // depth, scalar
+#ifdef COUNT
+uniform usampler2D state_steps;
+layout(location = 3) out uint out_steps;
+#endif
+uniform int steps_per_pass;
+uniform float length_unit;         // half diagonals → unit distances
+uniform float transmittance_stop;  // a ray ends at or below
+
+layout(location = 0) out ivec4 out_walk;
+layout(location = 1) out vec4 out_color;
+layout(location = 2) out vec2 out_at;
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec4 walk = texelFetch(state_walk, pixel, 0);
+    vec4 color = texelFetch(state_color, pixel, 0);
+    vec2 at = texelFetch(state_at, pixel, 0).xy;
+#ifdef COUNT
+    uint steps = texelFetch(state_steps, pixel, 0).x;
+#endif
+    if (walk.x >= 0) {
+        Ray ray = ray_of_pixel(gl_FragCoord.xy);
+        Walk w;
+        int facing;
+        walk_face(w, ray, walk.x, walk.yzw, facing);
+        w.z = at.x;
+        w.s = at.y;
+        Integral integral = integral_begin(color, w.s);
+        for (int k = 0; k < steps_per_pass; k++) {
+            Segment segment = walk_step(w, ray);
+#ifdef COUNT
+            steps++;
+#endif
+#ifdef EYE_CLIP
+            if (segment.z0 < 0.0) {
+                if (segment.z1 > 0.0) {
+                    float f = segment.z0 / (segment.z0 - segment.z1);
+                    segment.s0 = mix(segment.s0, segment.s1, f);
+                    segment.z0 = 0.0;
+                    integral_enter(integral, segment.s0);
+                } else {
+                    segment.z0 = segment.z1; // behind the eye
+                }
+            }
+#endif
+#ifdef CELL_DATA
+            segment.s0 = segment.s1 = texelFetch(mesh_cell_scalar, segment.real ? segment.cell : 0).x;
+            integral_enter(integral, segment.s0);
+#endif
+            integral_add(integral, segment, (segment.z1 - segment.z0) * length_unit);
+            if (integral_transmittance(integral) <= transmittance_stop)
+                w.cell = -2;
+            if (w.cell < 0)
+                break;
+        }
+        color = integral_end(integral);
+        walk = ivec4(w.cell, w.id);
+        at = vec2(w.z, w.s);
+    }
+    out_walk = walk;
+    out_color = color;
+    out_at = at;
+#ifdef COUNT
+    out_steps = steps;
+#endif
+}

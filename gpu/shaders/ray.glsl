@@ -1,0 +1,42 @@
+// ray.glsl: the ray of a pixel and its frame (design: "Ray frame").
+// Lengths are in half diagonals of the bounding box, whose centre is the origin.
+
+uniform dvec3 ray_point, ray_point_dx, ray_point_dy;             // affine in the pixel; see scene_rays in frame.c
+uniform dvec3 ray_direction, ray_direction_dx, ray_direction_dy; // not normalised
+uniform vec3 ray_up;
+
+struct Ray {
+    vec3 o;       // origin of the frame: the point in the plane through the mesh's centre, or the eye when it is near
+    vec3 u, v, d; // orthonormal; d is the direction; cross(u, v) = -d, so that faces seen from outside run counter-clockwise
+};
+
+Ray ray_of_pixel(vec2 pixel)
+{
+    double x = double(pixel.x), y = double(pixel.y);
+    Ray ray;
+    precise vec3 o = vec3(ray_point + x * ray_point_dx + y * ray_point_dy);
+    precise vec3 d = vec3(ray_direction + x * ray_direction_dx + y * ray_direction_dy);
+    precise float length_d = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    d /= length_d;
+    precise vec3 u = vec3(d.y * ray_up.z - d.z * ray_up.y, d.z * ray_up.x - d.x * ray_up.z, d.x * ray_up.y - d.y * ray_up.x);
+    precise float length_u = sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
+    u /= length_u;
+    precise vec3 v = vec3(u.y * d.z - u.z * d.y, u.z * d.x - u.x * d.z, u.x * d.y - u.y * d.x);
+    ray.o = o;
+    ray.u = u;
+    ray.v = v;
+    ray.d = d;
+    return ray;
+}
+
+// A vertex as the ray sees it: x, y across the ray, z along it. The same bits in every program: every cell around a
+// vertex must see the same numbers.
+vec3 ray_project(Ray ray, vec3 x)
+{
+    precise vec3 r = x - ray.o;
+    precise vec3 p;
+    p.x = r.x * ray.u.x + r.y * ray.u.y + r.z * ray.u.z;
+    p.y = r.x * ray.v.x + r.y * ray.v.y + r.z * ray.v.z;
+    p.z = r.x * ray.d.x + r.y * ray.d.y + r.z * ray.d.z;
+    return p;
+}

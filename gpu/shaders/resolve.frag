@@ -1,0 +1,9 @@
+// resolve.frag: the accumulated state as premultiplied colour.
+#include "state.glsl"
+uniform sampler2D state_color;
+layout(location = 0) out vec4 out_rgba;
+void main()
+{
+    vec4 color = texelFetch(state_color, ivec2(gl_FragCoord.xy), 0);
+    out_rgba = vec4(color.rgb, state_opacity(color));
+}

@@ -1,0 +1,116 @@
+// stepper.glsl: moves a ray through one tetrahedron. Every driver and every kind of cell uses this step and no other.
+//
+// Garrity 1990; Weiler et al. 2003, 3.4, with the exit face chosen by the signs of two-dimensional cross products instead of
+// by intersection points (after Aman et al. 2022). The ray is the origin of its own frame (ray.glsl). A face holds the
+// ray iff the crosses of its projected vertices, taken around, agree in sign. Signs are exact and ties broken consistently
+// (signs.glsl), so a cell has 0 or 2 faces that hold the ray, and a walk from a boundary face ends at a boundary face.
+
+#include "ray.glsl"
+#include "signs.glsl"
+#include "mesh.glsl"
+
+// A ray at a face that holds it, about to enter `cell` through it.
+struct Walk {
+    int cell;      // -1: outside
+    ivec3 id;      // the face's vertices, counter-clockwise around the ray
+    vec4 a, b, c;  // projected: x, y across, z along the ray, and the scalar
+    vec3 weight;   // crosses (b,c), (c,a), (a,b), all positive: the ray's barycentric coordinates in the face
+    float z, s;    // depth and scalar where the ray meets the face
+};
+
+struct Segment {
+    float z0, z1; // depths of entry and exit, z0 <= z1
+    float s0, s1; // scalars there
+    bool real;
+    int cell;
+};
+
+vec4 walk_vertex(Ray ray, int id)
+{
+    vec4 x = texelFetch(mesh_vertices, id);
+    return vec4(ray_project(ray, x.xyz), x.w);
+}
+
+// Depth and scalar at the walk's face: a convex combination, so both stay within the face's own values.
+vec2 walk_face_point(Walk w)
+{
+    vec3 k = w.weight / (w.weight.x + w.weight.y + w.weight.z);
+    return k.x * w.a.zw + k.y * w.b.zw + k.z * w.c.zw;
+}
+
+// Sets up the face (id) that the ray meets; false when the signs say that it does not. `facing` gets +1 when the
+// vertices run counter-clockwise around the ray, -1 when clockwise (they are then swapped).
+bool walk_face(out Walk w, Ray ray, int cell, ivec3 id, out int facing)
+{
+    w.cell = cell;
+    w.id = id;
+    w.a = walk_vertex(ray, id.x);
+    w.b = walk_vertex(ray, id.y);
+    w.c = walk_vertex(ray, id.z);
+    w.weight = vec3(sign_cross(w.b.xy, w.c.xy, id.y, id.z), sign_cross(w.c.xy, w.a.xy, id.z, id.x),
+                    sign_cross(w.a.xy, w.b.xy, id.x, id.y));
+    facing = w.weight.x > 0.0 ? 1 : -1;
+    if (facing < 0) {
+        w.id = id.xzy;
+        vec4 t = w.b;
+        w.b = w.c;
+        w.c = t;
+        w.weight = -w.weight.xzy;
+    }
+    vec2 at = walk_face_point(w);
+    w.z = at.x;
+    w.s = at.y;
+    return w.weight.y > 0.0 && w.weight.z > 0.0;
+}
+
+// One cell step: from the face into w.cell and out at the face that holds the ray there.
+Segment walk_step(inout Walk w, Ray ray)
+{
+    int cell = w.cell;
+    int id = mesh_fourth_vertex(cell, w.id);
+    vec4 d = walk_vertex(ray, id);
+    float da = sign_cross(d.xy, w.a.xy, id, w.id.x);
+    float db = sign_cross(d.xy, w.b.xy, id, w.id.y);
+    float dc = sign_cross(d.xy, w.c.xy, id, w.id.z);
+
+    // The exit face keeps two entry vertices and d: (a,b,d), (c,a,d), else (b,c,d). Two signs choose.
+    bool drop_c = da > 0.0 && db < 0.0;
+    bool drop_b = da < 0.0 && dc > 0.0;
+    int dropped;
+    ivec3 others = w.id;
+    if (drop_c) {
+        dropped = w.id.z;
+        w.id.z = id;
+        others.z = id;
+        w.c = d;
+        w.weight = vec3(-db, da, w.weight.z);
+    } else if (drop_b) {
+        dropped = w.id.y;
+        w.id.y = id;
+        others.y = id;
+        w.b = d;
+        w.weight = vec3(dc, w.weight.y, -da);
+    } else {
+        dropped = w.id.x;
+        w.id.x = id;
+        others.x = id;
+        w.a = d;
+        w.weight = vec3(w.weight.x, -dc, db);
+    }
+    w.cell = mesh_neighbour(cell, dropped, others);
+
+    Segment segment;
+    segment.cell = cell;
+    segment.real = mesh_is_real(cell);
+    segment.z0 = w.z;
+    segment.s0 = w.s;
+    vec2 at = walk_face_point(w);
+    // An empty segment advances neither depth nor scalar; depth never goes back. Behind an imaginary cell the scalar is
+    // always the face's own: the one before it belonged to other vertices.
+    bool forward = at.x > w.z;
+    w.s = forward || !segment.real ? at.y : w.s;
+    w.z = forward ? at.x : w.z;
+    segment.z1 = w.z;
+    segment.s1 = w.s;
+    return segment;
+}

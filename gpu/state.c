@@ -1,0 +1,109 @@
+/* state.c: the textures that carry rays from pass to pass. */
+#include "gpu/state.h"
+
+#include <string.h>
+
+static GLuint screen_texture(const tc_state *s, const tc_gl *gl, GLenum internal, GLenum format, GLenum type)
+{
+    GLuint texture;
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal, s->width, s->height, 0, format, type, NULL);
+    return texture;
+}
+
+static GLuint depth_buffer(const tc_state *s, const tc_gl *gl)
+{
+    GLuint buffer;
+    gl->GenRenderbuffers(1, &buffer);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, buffer);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, s->width, s->height);
+    return buffer;
+}
+
+static tc_status framebuffer(GLuint *out, const tc_gl *gl, const GLuint *color, int n, GLuint depth, tc_error *err)
+{
+    GLenum buffers[4];
+    gl->GenFramebuffers(1, out);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, *out);
+    for (int i = 0; i < n; i++) {
+        gl->FramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + (GLenum)i, color[i], 0);
+        buffers[i] = GL_COLOR_ATTACHMENT0 + (GLenum)i;
+    }
+    if (depth)
+        gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    gl->DrawBuffers(n, buffers);
+    GLenum complete = gl->CheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (complete != GL_FRAMEBUFFER_COMPLETE)
+        return tc_fail(err, TC_E_GL, "%s cannot render to float textures (framebuffer status 0x%04X)", gl->renderer,
+                       complete);
+    return TC_OK;
+}
+
+tc_status tc_state_create(tc_state *s, const tc_gl *gl, int width, int height, bool counting, bool peeling,
+                          tc_error *err)
+{
+    memset(s, 0, sizeof *s);
+    if (width > gl->max_texture_size || height > gl->max_texture_size)
+        return tc_fail(err, TC_E_ARG, "an image of %dx%d exceeds what %s can render (%d); use a smaller --size", width,
+                       height, gl->renderer, gl->max_texture_size);
+    s->width = width;
+    s->height = height;
+    s->counting = counting;
+    s->peeling = peeling;
+    size_t pixels = (size_t)width * (size_t)height;
+    s->lock = depth_buffer(s, gl);
+    s->hit_depth = depth_buffer(s, gl);
+    s->bytes = pixels * 8;
+    tc_status status = TC_OK;
+    for (int i = 0; i < 2 && status == TC_OK; i++) {
+        tc_state_set *set = &s->set[i];
+        set->walk = screen_texture(s, gl, GL_RGBA32I, GL_RGBA_INTEGER, GL_INT);
+        set->color = screen_texture(s, gl, GL_RGBA32F, GL_RGBA, GL_FLOAT);
+        set->at = screen_texture(s, gl, GL_RG32F, GL_RG, GL_FLOAT);
+        if (counting)
+            set->steps = screen_texture(s, gl, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
+        GLuint textures[4] = {set->walk, set->color, set->at, set->steps};
+        status = framebuffer(&set->framebuffer, gl, textures, counting ? 4 : 3, s->lock, err);
+        s->bytes += pixels * (counting ? 44 : 40);
+    }
+    for (int i = 0; i < (peeling ? 2 : 1) && status == TC_OK; i++) {
+        if (peeling) {
+            s->key[i] = screen_texture(s, gl, GL_RG32I, GL_RG_INTEGER, GL_INT);
+            s->bytes += pixels * 8;
+        }
+        GLuint textures[3] = {s->set[0].walk, s->set[0].at, s->key[i]};
+        status = framebuffer(&s->hit_framebuffer[i], gl, textures, peeling ? 3 : 2, s->hit_depth, err);
+    }
+    if (status == TC_OK)
+        status = framebuffer(&s->lock_framebuffer, gl, NULL, 0, s->lock, err);
+    if (status == TC_OK) {
+        s->result = screen_texture(s, gl, GL_RGBA32F, GL_RGBA, GL_FLOAT);
+        s->bytes += pixels * 16;
+        status = framebuffer(&s->result_framebuffer, gl, &s->result, 1, 0, err);
+    }
+    if (status == TC_OK)
+        status = tc_gl_check(gl, "making the ray state", err);
+    if (status != TC_OK)
+        tc_state_finish(s, gl);
+    return status;
+}
+
+void tc_state_finish(tc_state *s, const tc_gl *gl)
+{
+    for (int i = 0; i < 2; i++) {
+        GLuint textures[5] = {s->set[i].walk, s->set[i].color, s->set[i].at, s->set[i].steps, s->key[i]};
+        gl->DeleteTextures(5, textures); /* 0 is ignored */
+        gl->DeleteFramebuffers(1, &s->set[i].framebuffer);
+        gl->DeleteFramebuffers(1, &s->hit_framebuffer[i]);
+    }
+    gl->DeleteFramebuffers(1, &s->lock_framebuffer);
+    gl->DeleteRenderbuffers(1, &s->lock);
+    gl->DeleteRenderbuffers(1, &s->hit_depth);
+    gl->DeleteTextures(1, &s->result);
+    gl->DeleteFramebuffers(1, &s->result_framebuffer);
+    memset(s, 0, sizeof *s);
+}

@@ -1,0 +1,33 @@
+/* state.h: the textures that carry rays from pass to pass: two sets for ping-pong (Weiler et al. 2003, 5.1, Table 1). */
+#ifndef TC_GPU_STATE_H
+#define TC_GPU_STATE_H
+
+#include "gpu/gl.h"
+
+typedef struct tc_state_set {
+    GLuint walk;  /* RGBA32I: cell, face's vertices */
+    GLuint color; /* RGBA32F: colour, optical depth or transmittance */
+    GLuint at;    /* RG32F: depth, scalar */
+    GLuint steps; /* R32UI, only when counting */
+    GLuint framebuffer; /* all of them, and the lock */
+} tc_state_set;
+
+typedef struct tc_state {
+    int width, height;
+    bool counting, peeling;
+    tc_state_set set[2];
+    GLuint lock;      /* depth renderbuffer: near where the ray is finished */
+    GLuint lock_framebuffer; /* the lock alone */
+    GLuint hit_depth; /* depth renderbuffer of the first hit */
+    GLuint hit_framebuffer[2]; /* walk and at of set 0, key i when peeling */
+    GLuint key[2];    /* RG32I: previous and next entry, only when peeling */
+    GLuint result, result_framebuffer; /* RGBA32F */
+    size_t bytes;
+} tc_state;
+
+/* Errors: TC_E_ARG when the image exceeds the GL's limit, TC_E_MEMORY, TC_E_GL. */
+tc_status tc_state_create(tc_state *out, const tc_gl *gl, int width, int height, bool counting, bool peeling,
+                          tc_error *err);
+void tc_state_finish(tc_state *state, const tc_gl *gl);
+
+#endif

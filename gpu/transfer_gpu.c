@@ -1,0 +1,129 @@
+/* transfer_gpu.c: chooses an integrator and keeps its textures. */
+#include "gpu/transfer_gpu.h"
+
+#include "core/parallel.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { RUNNING_NODES = 4096 };
+
+static tc_integrator choose(const tc_render_options *options, tc_render_stats *stats)
+{
+    if (options->integrator != TC_INTEGRATOR_AUTO)
+        return options->integrator;
+    snprintf(stats->integrator_why, sizeof stats->integrator_why,
+             "running integrals: smaller error than a 128x128x256 table at about its cost");
+    return TC_INTEGRATOR_INTEGRAL;
+}
+
+/* The part of the data's range in which the function changes: beyond its end knots it is constant. */
+static void find_span(double span[2], const tc_transfer_gpu_request *request)
+{
+    double knots[2];
+    tc_transfer_span(knots, request->transfer);
+    span[0] = fmax(knots[0], request->scalar[0]);
+    span[1] = fmin(knots[1], request->scalar[1]);
+    if (!(span[1] > span[0])) { /* constant over the data, or data without a range */
+        span[0] = request->scalar[0];
+        span[1] = request->scalar[1] > request->scalar[0] ? request->scalar[1] : request->scalar[0] + 1;
+    }
+}
+
+static void bind(tc_job *job, const tc_transfer_gpu *t)
+{
+    job->integrator = t->integrator;
+    double range = t->scalar[1] > t->scalar[0] ? t->scalar[1] - t->scalar[0] : 0;
+    double width = t->span[1] - t->span[0];
+    job->map[0] = range / width;
+    job->map[1] = (t->scalar[0] - t->span[0]) / width;
+    job->extend = t->integrator == TC_INTEGRATOR_INTEGRAL && range > 0 &&
+                  (t->span[0] > t->scalar[0] || t->span[1] < t->scalar[1]);
+    memcpy(job->mean, t->mean, sizeof job->mean);
+    for (int k = 0; k < 3; k++) { /* entries sit at texel centres, the end ones on the ends */
+        double n = t->size[k];
+        job->texel[k][0] = n > 0 ? (n - 1) / n : 0;
+        job->texel[k][1] = n > 0 ? 0.5 / n : 0;
+    }
+    if (t->integrator == TC_INTEGRATOR_TABLE)
+        job->texel[2][0] /= t->length_max;
+}
+
+static tc_status build_table(tc_transfer_gpu *t, const tc_transfer_gpu_request *request, const tc_gl *gl,
+                             tc_render_stats *stats, tc_error *err)
+{
+    const tc_table_options options = {
+        .size = {t->size[0], t->size[1], t->size[2]},
+        .span = {t->span[0], t->span[1]},
+        .length_max = t->length_max,
+        .format = t->format,
+        .threads = request->threads,
+    };
+    tc_table table;
+    tc_status status = tc_table_build(&table, request->transfer, &options, err);
+    if (status != TC_OK)
+        return status;
+    stats->ms_table = table.ms;
+    status = tc_gpu_table_upload(&t->textures, gl, &table, err);
+    tc_table_finish(&table);
+    return status;
+}
+
+static tc_status build_running(tc_transfer_gpu *t, const tc_transfer_gpu_request *request, const tc_gl *gl,
+                               tc_render_stats *stats, tc_error *err)
+{
+    tc_running running;
+    tc_status status = tc_running_build(&running, request->transfer, t->size[0], t->span, err);
+    if (status != TC_OK)
+        return status;
+    stats->ms_table = running.ms;
+    memcpy(t->mean, running.mean, sizeof t->mean);
+    status = tc_gpu_running_upload(&t->textures, gl, &running, err);
+    tc_running_finish(&running);
+    return status;
+}
+
+tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_transfer_gpu_request *request,
+                                 const tc_gl *gl, tc_render_stats *stats, tc_error *err)
+{
+    const tc_render_options *options = request->options;
+    tc_transfer_gpu wanted = {.serial = request->transfer->serial,
+                              .integrator = choose(options, stats),
+                              .scalar = {request->scalar[0], request->scalar[1]}};
+    find_span(wanted.span, request);
+    if (wanted.integrator == TC_INTEGRATOR_TABLE) {
+        static const int paper_size[3] = {128, 128, 256};
+        for (int k = 0; k < 3; k++)
+            wanted.size[k] = options->table_size[k] > 0 ? options->table_size[k] : paper_size[k];
+        wanted.format = options->table_format == TC_TABLE_AUTO ? TC_TABLE_16F : options->table_format;
+        wanted.length_max = request->length_max > 0 ? request->length_max : 1;
+    } else {
+        wanted.size[0] = RUNNING_NODES < gl->max_texture_size ? RUNNING_NODES : gl->max_texture_size;
+    }
+    bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
+                memcmp(t->size, wanted.size, sizeof t->size) == 0 && t->length_max == wanted.length_max &&
+                memcmp(t->scalar, wanted.scalar, sizeof t->scalar) == 0;
+    tc_status status = TC_OK;
+    if (!same) {
+        tc_transfer_gpu_finish(t, gl);
+        *t = wanted;
+        t->serial = 0;
+        double start = tc_now_ms();
+        status = wanted.integrator == TC_INTEGRATOR_TABLE ? build_table(t, request, gl, stats, err)
+                                                          : build_running(t, request, gl, stats, err);
+        if (status != TC_OK)
+            return status;
+        t->serial = wanted.serial;
+        double upload = tc_now_ms() - start - stats->ms_table;
+        stats->ms_upload = (stats->ms_upload > 0 ? stats->ms_upload : 0) + upload;
+    }
+    bind(job, t);
+    return status;
+}
+
+void tc_transfer_gpu_finish(tc_transfer_gpu *t, const tc_gl *gl)
+{
+    tc_gpu_transfer_finish(&t->textures, gl);
+    t->serial = 0;
+}

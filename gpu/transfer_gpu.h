@@ -1,0 +1,29 @@
+/* transfer_gpu.h: chooses an integrator and keeps its textures for the transfer function in force. */
+#ifndef TC_GPU_TRANSFER_GPU_H
+#define TC_GPU_TRANSFER_GPU_H
+
+#include "gpu/job.h"
+
+typedef struct tc_transfer_gpu_request {
+    const tc_transfer *transfer;
+    const tc_render_options *options;
+    double scalar[2];  /* what the packed scalars 0 and 1 stand for */
+    double length_max; /* longest segment in unit distances */
+    int threads;
+} tc_transfer_gpu_request;
+
+typedef struct tc_transfer_gpu {
+    tc_gpu_transfer textures;
+    uint64_t serial; /* of the transfer function uploaded; 0: none */
+    tc_integrator integrator;
+    tc_table_format format;
+    int size[3];
+    double scalar[2], length_max, span[2], mean[4];
+} tc_transfer_gpu;
+
+/* Builds and uploads what changed; sets job's integrator, extend, map, texel and mean. Errors: TC_E_ARG, TC_E_MEMORY, TC_E_GL. */
+tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *transfer, tc_job *job, const tc_transfer_gpu_request *request,
+                                 const tc_gl *gl, tc_render_stats *stats, tc_error *err);
+void tc_transfer_gpu_finish(tc_transfer_gpu *transfer, const tc_gl *gl);
+
+#endif

@@ -1,0 +1,126 @@
+/* upload.c: packed arrays and transfer functions → textures. */
+#include "gpu/upload.h"
+
+#include "core/parallel.h"
+
+#include <string.h>
+
+static tc_status upload_buffer(tc_texture_buffer *out, const tc_gl *gl, const void *data, size_t n_texel,
+                               size_t texel_bytes, GLenum format, const char *what, tc_error *err)
+{
+    memset(out, 0, sizeof *out);
+    if (n_texel > (size_t)gl->max_texture_buffer)
+        return tc_fail(err, TC_E_MEMORY, "%s needs %zu texels, %s offers %d in a texture buffer", what, n_texel,
+                       gl->renderer, gl->max_texture_buffer);
+    out->bytes = n_texel * texel_bytes;
+    gl->GenBuffers(1, &out->buffer);
+    gl->BindBuffer(GL_TEXTURE_BUFFER, out->buffer);
+    gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)out->bytes, data, GL_STATIC_DRAW);
+    gl->GenTextures(1, &out->texture);
+    gl->BindTexture(GL_TEXTURE_BUFFER, out->texture);
+    gl->TexBuffer(GL_TEXTURE_BUFFER, format, out->buffer);
+    gl->BindBuffer(GL_TEXTURE_BUFFER, 0);
+    return tc_gl_check(gl, what, err);
+}
+
+static void finish_buffer(tc_texture_buffer *b, const tc_gl *gl)
+{
+    if (b->texture)
+        gl->DeleteTextures(1, &b->texture);
+    if (b->buffer)
+        gl->DeleteBuffers(1, &b->buffer);
+    memset(b, 0, sizeof *b);
+}
+
+tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, tc_error *err)
+{
+    double start = tc_now_ms();
+    memset(out, 0, sizeof *out);
+    out->n_cell = pack->n_cell;
+    out->n_real = pack->n_real;
+    out->n_vertex = pack->n_vertex;
+    out->n_face = pack->n_face;
+    tc_status status = upload_buffer(&out->cells, gl, pack->cell, pack->n_cell * TC_PACK_CELL_INTS, 4, GL_R32I,
+                                     "uploading the cells", err);
+    if (status == TC_OK)
+        status = upload_buffer(&out->vertices, gl, pack->vertex, pack->n_vertex, 16, GL_RGBA32F,
+                               "uploading the vertices", err);
+    if (status == TC_OK)
+        status = upload_buffer(&out->faces, gl, pack->face, pack->n_face, 16, GL_RGBA32I,
+                               "uploading the boundary faces", err);
+    if (status == TC_OK && pack->cell_scalar)
+        status = upload_buffer(&out->cell_scalar, gl, pack->cell_scalar, pack->n_real, 4, GL_R32F,
+                               "uploading the cell data", err);
+    if (status != TC_OK)
+        tc_gpu_mesh_finish(out, gl);
+    out->ms = tc_now_ms() - start;
+    return status;
+}
+
+void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl)
+{
+    finish_buffer(&mesh->cells, gl);
+    finish_buffer(&mesh->vertices, gl);
+    finish_buffer(&mesh->faces, gl);
+    finish_buffer(&mesh->cell_scalar, gl);
+}
+
+static GLuint linear_texture(const tc_gl *gl, GLenum target)
+{
+    GLuint texture;
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(target, texture);
+    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->TexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(target, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
+    return texture;
+}
+
+tc_status tc_gpu_table_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_table *table, tc_error *err)
+{
+    memset(out, 0, sizeof *out);
+    for (int k = 0; k < 3; k++)
+        if (table->size[k] > gl->max_texture_3d)
+            return tc_fail(err, TC_E_ARG, "a table %d entries wide is too large for %s (%d); use a smaller --table-size",
+                           table->size[k], gl->renderer, gl->max_texture_3d);
+    GLenum internal = table->format == TC_TABLE_8     ? GL_RGBA8
+                      : table->format == TC_TABLE_16F ? GL_RGBA16F
+                                                      : GL_RGBA32F;
+    GLenum type = table->format == TC_TABLE_8     ? GL_UNSIGNED_BYTE
+                  : table->format == TC_TABLE_16F ? GL_HALF_FLOAT
+                                                  : GL_FLOAT;
+    out->table = linear_texture(gl, GL_TEXTURE_3D);
+    out->bytes = table->bytes;
+    gl->TexImage3D(GL_TEXTURE_3D, 0, (GLint)internal, table->size[0], table->size[1], table->size[2], 0, GL_RGBA, type,
+                   table->rgba);
+    tc_status status = tc_gl_check(gl, "uploading the pre-integration table", err);
+    if (status != TC_OK)
+        tc_gpu_transfer_finish(out, gl);
+    return status;
+}
+
+tc_status tc_gpu_running_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_running *running, tc_error *err)
+{
+    memset(out, 0, sizeof *out);
+    out->bytes = (size_t)running->n * 32;
+    out->point = linear_texture(gl, GL_TEXTURE_1D);
+    gl->TexImage1D(GL_TEXTURE_1D, 0, GL_RGBA32F, running->n, 0, GL_RGBA, GL_FLOAT, running->point);
+    out->cumulative = linear_texture(gl, GL_TEXTURE_1D);
+    gl->TexImage1D(GL_TEXTURE_1D, 0, GL_RGBA32F, running->n, 0, GL_RGBA, GL_FLOAT, running->cumulative);
+    tc_status status = tc_gl_check(gl, "uploading the running integrals", err);
+    if (status != TC_OK)
+        tc_gpu_transfer_finish(out, gl);
+    return status;
+}
+
+void tc_gpu_transfer_finish(tc_gpu_transfer *transfer, const tc_gl *gl)
+{
+    GLuint textures[3] = {transfer->table, transfer->point, transfer->cumulative};
+    for (int i = 0; i < 3; i++)
+        if (textures[i])
+            gl->DeleteTextures(1, &textures[i]);
+    memset(transfer, 0, sizeof *transfer);
+}

@@ -1,0 +1,36 @@
+/* upload.h: packed arrays and transfer functions → textures. */
+#ifndef TC_GPU_UPLOAD_H
+#define TC_GPU_UPLOAD_H
+
+#include "gpu/gl.h"
+#include "gpu/pack.h"
+#include "transfer_functions/running.h"
+#include "transfer_functions/table.h"
+
+/* One array in a texture buffer. */
+typedef struct tc_texture_buffer {
+    GLuint buffer, texture;
+    size_t bytes;
+} tc_texture_buffer;
+
+typedef struct tc_gpu_mesh {
+    tc_texture_buffer cells, vertices, faces, cell_scalar;
+    size_t n_cell, n_real, n_vertex, n_face;
+    double ms;
+} tc_gpu_mesh;
+
+/* Errors: TC_E_MEMORY (with the figure needed), TC_E_GL. */
+tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, tc_error *err);
+void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl);
+
+/* A transfer function's textures: `table` (3-D) or `point` and `cumulative` (1-D). */
+typedef struct tc_gpu_transfer {
+    GLuint table, point, cumulative;
+    size_t bytes;
+} tc_gpu_transfer;
+
+tc_status tc_gpu_table_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_table *table, tc_error *err);
+tc_status tc_gpu_running_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_running *running, tc_error *err);
+void tc_gpu_transfer_finish(tc_gpu_transfer *transfer, const tc_gl *gl);
+
+#endif

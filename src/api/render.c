@@ -1,0 +1,231 @@
+/* render.c: tc_renderer and tc_render: validates once, then hands over to a driver. */
+#include "api/driver.h"
+
+#include "core/memory.h"
+#include "core/parallel.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_SIZE = 65536, MAX_STEPS_PER_PASS = 1 << 20, MAX_TABLE = 1024 };
+
+void tc_render_defaults(tc_render_options *options)
+{
+    memset(options, 0, sizeof *options);
+    options->width = options->height = 512;
+    options->opacity_stop = 0.999;
+}
+
+double tc_default_unit(const tc_mesh *mesh)
+{
+    const double *b = mesh->report.bounds;
+    double diagonal = hypot(hypot(b[1] - b[0], b[3] - b[2]), b[5] - b[4]);
+    double cells = (double)(mesh->report.source_cells ? mesh->report.source_cells : mesh->report.n_tet);
+    double unit = cells > 0 ? diagonal / cbrt(cells) : diagonal;
+    return unit > 0 && isfinite(unit) ? unit : 1;
+}
+
+tc_status tc_resolve(tc_render_options *resolved, double *unit, tc_rays *rays, const tc_mesh *mesh,
+                     const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options, tc_error *err)
+{
+    if (!mesh || !tf || !camera || !options)
+        return tc_fail(err, TC_E_ARG, "a mesh, a transfer function, a camera and options are needed");
+    if (!mesh->prepared)
+        return tc_fail(err, TC_E_ARG, "the mesh was not prepared; call tc_mesh_prepare first");
+    if (options->width < 1 || options->height < 1 || options->width > MAX_SIZE || options->height > MAX_SIZE)
+        return tc_fail(err, TC_E_ARG, "an image of %dx%d pixels cannot be made; use 1 to %d each way", options->width,
+                       options->height, MAX_SIZE);
+    if (!(options->opacity_stop > 0))
+        return tc_fail(err, TC_E_ARG, "opacity stop %g must be above 0 (1: rays never stop early)",
+                       options->opacity_stop);
+    if (options->unit_distance < 0 || !isfinite(options->unit_distance))
+        return tc_fail(err, TC_E_ARG, "unit distance %g must be a positive length", options->unit_distance);
+    if (options->steps_per_pass < 0 || options->steps_per_pass > MAX_STEPS_PER_PASS)
+        return tc_fail(err, TC_E_ARG, "%d steps per pass are out of range; use 1 to %d", options->steps_per_pass,
+                       MAX_STEPS_PER_PASS);
+    for (int k = 0; k < 3; k++)
+        if (options->table_size[k] != 0 && (options->table_size[k] < 2 || options->table_size[k] > MAX_TABLE))
+            return tc_fail(err, TC_E_ARG, "a table %d entries wide cannot be made; use 2 to %d", options->table_size[k],
+                           MAX_TABLE);
+    *resolved = *options;
+    *unit = options->unit_distance > 0 ? options->unit_distance : tc_default_unit(mesh);
+    return tc_rays_from_camera(rays, camera, options->width, options->height, err);
+}
+
+/* ------------------------------------------------------------------------------------------------- pingpong */
+
+static tc_status pingpong_create(tc_renderer *r, const tc_renderer_options *options, const tc_log *log, tc_error *err)
+{
+    return tc_gpu_renderer_create(&r->gpu, options->gl, options->get_proc_address, options->threads, log, err);
+}
+
+static tc_status pingpong_render(tc_image *image, tc_render_stats *stats, tc_renderer *r, const tc_gpu_frame *frame,
+                                 tc_error *err)
+{
+    tc_status status = tc_gpu_render(stats, r->gpu, frame, err);
+    if (status == TC_OK || status == TC_E_LOST) {
+        tc_status read = tc_gpu_read(image->rgba, stats, r->gpu, status == TC_OK ? err : NULL);
+        status = status == TC_OK ? read : status;
+    }
+    return status;
+}
+
+static void pingpong_finish(tc_renderer *r)
+{
+    tc_gpu_renderer_destroy(&r->gpu);
+}
+
+/* ------------------------------------------------------------------------------------------------- reference */
+
+static tc_status reference_create(tc_renderer *r, const tc_renderer_options *options, const tc_log *log, tc_error *err)
+{
+    (void)r;
+    (void)log;
+    if (options->get_proc_address)
+        return tc_fail(err, TC_E_ARG, "the driver 'reference' renders on the CPU; it does not draw into a host's context");
+    return TC_OK;
+}
+
+static tc_status reference_render(tc_image *image, tc_render_stats *stats, tc_renderer *r, const tc_gpu_frame *frame,
+                                  tc_error *err)
+{
+    const tc_mesh *mesh = frame->mesh;
+    tc_status status = TC_OK;
+    if (!r->reference || r->reference_serial != mesh->serial || r->reference_scalar_serial != mesh->scalar_serial) {
+        tc_reference_destroy(&r->reference);
+        double start = tc_now_ms();
+        status = tc_reference_create(&r->reference, mesh, r->threads, err);
+        stats->ms_pack = tc_now_ms() - start;
+        r->reference_serial = mesh->serial;
+        r->reference_scalar_serial = mesh->scalar_serial;
+    }
+    if (status != TC_OK)
+        return status;
+    double start = tc_now_ms();
+    status = tc_reference_render(image, r->reference, frame->transfer, frame->unit_distance, frame->rays, r->threads,
+                                 frame->log, err);
+    stats->ms_frame = stats->ms_march = tc_now_ms() - start;
+    stats->rays_lost = 0; /* every cell is asked for every ray: there is no walk to lose */
+    snprintf(stats->driver, sizeof stats->driver, "reference");
+    snprintf(stats->integrator, sizeof stats->integrator, "exact");
+    return status;
+}
+
+static void reference_finish(tc_renderer *r)
+{
+    tc_reference_destroy(&r->reference);
+}
+
+const tc_driver tc_drivers[] = {
+    {"pingpong", pingpong_create, pingpong_render, pingpong_finish},
+    {"reference", reference_create, reference_render, reference_finish},
+    {0},
+};
+
+/* --------------------------------------------------------------------------------------------------- renderer */
+
+tc_status tc_renderer_create(tc_renderer **out, const tc_renderer_options *options, const tc_log *log, tc_error *err)
+{
+    static const tc_renderer_options defaults = {0};
+    *out = NULL;
+    if (!options)
+        options = &defaults;
+    tc_renderer *r = tc_calloc(1, sizeof *r);
+    if (!r)
+        return tc_fail_memory(err, "a renderer", 1, sizeof *r);
+    r->threads = options->threads;
+    bool any = !options->driver || strcmp(options->driver, "auto") == 0;
+    tc_status status = TC_E_ARG;
+    tc_error why = {0};
+    const tc_driver *driver = tc_drivers;
+    for (; driver->name; driver++) {
+        if (!any && strcmp(driver->name, options->driver) != 0)
+            continue;
+        status = driver->create(r, options, log, &why);
+        if (status == TC_OK || !any)
+            break;
+        if (options->get_proc_address || (options->gl && strcmp(options->gl, "auto") != 0))
+            break; /* a GL was asked for: the CPU is no answer */
+        tc_say(log, TC_WARNING, "driver %s cannot be used: %s", driver->name, why.text);
+    }
+    if (status == TC_OK) {
+        r->driver = driver;
+        *out = r;
+        return TC_OK;
+    }
+    free(r);
+    if (!why.text[0])
+        return tc_fail(err, TC_E_ARG, "unknown driver '%s'; there are auto, pingpong and reference", options->driver);
+    return tc_fail(err, status, "%s", why.text);
+}
+
+void tc_renderer_destroy(tc_renderer **renderer)
+{
+    if (!*renderer)
+        return;
+    (*renderer)->driver->finish(*renderer);
+    free(*renderer);
+    *renderer = NULL;
+}
+
+/* Everything not measured. */
+static void clear_stats(tc_render_stats *stats)
+{
+    memset(stats, 0, sizeof *stats);
+    stats->ms_pack = stats->ms_upload = stats->ms_table = stats->ms_compile = stats->ms_first_hit = stats->ms_march =
+        stats->ms_frame = stats->ms_readback = -1;
+    stats->gpu_bytes_mesh = stats->gpu_bytes_other = stats->gpu_bytes_table = stats->gpu_bytes_state = -1;
+    stats->steps_per_pass = stats->z_update_every = stats->passes = stats->z_updates = stats->layers = -1;
+    stats->rays = stats->rays_lost = stats->steps = stats->steps_max = -1;
+}
+
+tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
+                    const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options, const tc_log *log,
+                    tc_error *err)
+{
+    tc_render_stats unused;
+    if (!stats)
+        stats = &unused;
+    clear_stats(stats);
+    *out = NULL;
+    tc_render_options resolved;
+    tc_rays rays;
+    tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = &resolved, .log = log};
+    tc_status status = tc_resolve(&resolved, &frame.unit_distance, &rays, mesh, tf, camera, options, err);
+    if (status == TC_OK)
+        status = tc_image_create(out, resolved.width, resolved.height, err);
+    if (status != TC_OK)
+        return status;
+    status = renderer->driver->render(*out, stats, renderer, &frame, err);
+    if (status != TC_OK && status != TC_E_LOST)
+        tc_image_destroy(out);
+    return status;
+}
+
+tc_status tc_render_gl(unsigned framebuffer, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
+                       const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
+                       const tc_log *log, tc_error *err)
+{
+    tc_render_stats unused;
+    if (!stats)
+        stats = &unused;
+    clear_stats(stats);
+    if (!renderer->gpu)
+        return tc_fail(err, TC_E_ARG, "the driver '%s' does not draw into a GL context; use pingpong",
+                       renderer->driver->name);
+    tc_render_options resolved;
+    tc_rays rays;
+    tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = &resolved, .log = log};
+    tc_status status = tc_resolve(&resolved, &frame.unit_distance, &rays, mesh, tf, camera, options, err);
+    if (status != TC_OK)
+        return status;
+    tc_gl_saved saved;
+    tc_gl_save(&saved, &tc_gpu_renderer_context(renderer->gpu)->gl);
+    status = tc_gpu_render(stats, renderer->gpu, &frame, err);
+    if (status == TC_OK)
+        status = tc_gpu_draw(renderer->gpu, framebuffer, err);
+    tc_gl_restore(&saved, &tc_gpu_renderer_context(renderer->gpu)->gl);
+    return status;
+}

@@ -1,0 +1,25 @@
+/* verify.c: tc_verify: the reference judges a picture. */
+#include "api/driver.h"
+
+#include <string.h>
+
+tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed, const tc_mesh *mesh,
+                    const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options, const tc_log *log,
+                    tc_error *err)
+{
+    memset(out, 0, sizeof *out);
+    tc_render_options resolved;
+    tc_rays rays;
+    double unit;
+    tc_status status = tc_resolve(&resolved, &unit, &rays, mesh, tf, camera, options, err);
+    if (status == TC_OK && (image->width != resolved.width || image->height != resolved.height))
+        status = tc_fail(err, TC_E_ARG, "the picture is %dx%d, the options say %dx%d", image->width, image->height,
+                         resolved.width, resolved.height);
+    tc_reference *reference = NULL;
+    if (status == TC_OK)
+        status = tc_reference_create(&reference, mesh, 0, err);
+    if (status == TC_OK)
+        status = tc_reference_verify(out, image, n, seed, reference, tf, unit, &rays, 0, log, err);
+    tc_reference_destroy(&reference);
+    return status;
+}
