@@ -2,10 +2,6 @@
 # programs in ../libexec/tetcast, so the whole tree may be moved.
 include(CMakePackageConfigHelpers)
 
-if(NOT TARGET tetcast_lib)
-  return()
-endif()
-
 set(tc_helpers)
 foreach(helper tetcast-read tetcast-convexify tetcast-image)
   if(TARGET ${helper})
@@ -14,9 +10,9 @@ foreach(helper tetcast-read tetcast-convexify tetcast-image)
 endforeach()
 
 install(TARGETS tetcast RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS tetcast_lib LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS tetcast_lib LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  PUBLIC_HEADER DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS ${tc_helpers} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/tetcast)
-install(FILES src/tetcast.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 file(GLOB tc_man CONFIGURE_DEPENDS docs/man/*.1)
 install(FILES ${tc_man} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

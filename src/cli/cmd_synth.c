@@ -76,7 +76,7 @@ static int tc_synth_run(tc_talk *talk, const tc_command *command, int argc, char
         tc_talk_error(talk, "synth needs the name of a dataset (tetcast synth --list names them)");
         return TC_EXIT_USAGE;
     }
-    if (tc_synth_find(name, talk) < 0)
+    if (tc_synth_index(name, talk) < 0)
         return TC_EXIT_USAGE;
     if (!options.output) {
         tc_talk_error(talk, "synth needs a file to write: -o %s.vtu", name);

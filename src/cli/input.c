@@ -37,7 +37,7 @@ int tc_input_check(const tc_input_options *options, tc_talk *talk)
     return -1;
 }
 
-int tc_synth_find(const char *name, tc_talk *talk)
+int tc_synth_index(const char *name, tc_talk *talk)
 {
     size_t n = 0;
     const tc_synth_info *list = tc_synth_list(&n);
@@ -71,7 +71,7 @@ static int tc_synth_load(tc_mesh **out, const tc_input_options *options, const c
             return TC_EXIT_USAGE;
         }
     }
-    if (tc_synth_find(name, talk) < 0)
+    if (tc_synth_index(name, talk) < 0)
         return TC_EXIT_USAGE;
     if (options->field || options->cell_data || options->has_time || options->has_step)
         tc_talk_warning(talk, "a synthetic dataset has one field and no time: --field, --cell-data, --time and --step "

@@ -49,7 +49,7 @@ int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *option
 int tc_input_prepare(tc_mesh *mesh, const tc_input_options *options, tc_talk *talk);
 
 /* The index in tc_synth_list of a name; -1 after printing an error that names the nearest. */
-int tc_synth_find(const char *name, tc_talk *talk);
+int tc_synth_index(const char *name, tc_talk *talk);
 
 /* INPUT's file name without folders and extension ("heatsink" of synth:heatsink:5000), for default output names. */
 void tc_input_stem(char *out, size_t capacity, const char *input);

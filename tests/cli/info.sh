@@ -1,0 +1,65 @@
+#!/bin/sh
+# info: as a table and as JSON, with the defects in words.
+. "$TC_SOURCE/tests/cli/lib.sh"
+data=$TC_SOURCE/../shared/data
+
+run 0 synth heatsink --cells 4000 -o sink.vtu --quiet
+run 0 info sink.vtu
+stderr_empty
+for word in format tetra arrays bounds convex GPU defects; do
+    prints "$word"
+done
+prints "none found"
+run 0 info --json sink.vtu
+cp out sink.json
+json sink.json has tetcast eq source.cell_types.0.dimension 3 ge source.cell_types.0.count 1000 has source.arrays.0.name \
+    size source.arrays.0.range 2 size mesh.bounds 6 eq mesh.convex false ge mesh.imaginary_tets 1 ge mesh.gpu_bytes 1 \
+    ge mesh.boundary_faces 100 eq mesh.parts 1 has time_ms.read
+tets=$(sed -n 's/.*"tets": \([0-9]*\).*/\1/p' sink.json | head -1)
+json sink.json ge mesh.gpu_bytes $((20 * tets))
+run 0 info --json sink.vtu --reentry peel
+cp out peel.json
+json peel.json eq mesh.reentry peel eq mesh.imaginary_tets 0
+run 1 info missing.vtu
+stdout_empty
+says "missing.vtu"
+echo "no mesh" >text.vtk
+run 1 info text.vtk
+stdout_empty
+says "text.vtk"
+
+# A mesh with defects: an inverted tet, one that repeats a point, an unused point, a triangle, a NaN.
+cat >broken.vtk <<'VTK'
+# vtk DataFile Version 3.0
+defects
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 6 double
+0 0 0  1 0 0  0 1 0  0 0 1  1 1 1  9 9 9
+CELLS 4 19
+4 0 1 2 3
+4 1 2 3 4
+4 0 1 1 2
+3 0 1 2
+CELL_TYPES 4
+10 10 10 5
+POINT_DATA 6
+SCALARS heat double 1
+LOOKUP_TABLE default
+0 1 2 3 4 5
+VTK
+run 0 info broken.vtk
+prints "triangle"
+prints "use a point twice"
+run 0 info --json broken.vtk
+cp out broken.json
+json broken.json eq mesh.tets 2 ge source.dropped_cells 1 eq mesh.range.0 0 eq mesh.range.1 4 eq source.field heat
+
+if [ -d "$data" ]; then
+    run 0 info --json "$data/vol/QuadraticTetra.vtu"
+    cp out quadratic.json
+    json quadratic.json eq source.linearised true
+    run 0 info "$data/vol/QuadraticTetra.vtu"
+    prints "quadratic cells became linear"
+fi
+finish

@@ -1,0 +1,82 @@
+#!/bin/sh
+# render: what goes where, and what is said.
+. "$TC_SOURCE/tests/cli/lib.sh"
+ball="synth:ball:3000 --size 32x24"
+
+# Without -o the picture is INPUT's name + .png in the current folder; stdout stays empty.
+run 0 render $ball
+stdout_empty
+says "wrote ball.png"
+there ball.png
+[ "$(head -c 4 ball.png | tail -c 3)" = PNG ] || fail "ball.png is no PNG"
+
+# -o - is a PNG on stdout and nothing else.
+run 0 render $ball -o -
+[ "$(head -c 4 out | tail -c 3)" = PNG ] || fail "stdout is no PNG"
+cp out stdout.png
+run 0 compare ball.png stdout.png
+prints "same"
+
+# --quiet says nothing, --verbose more than the default.
+run 0 render $ball -o a.png --quiet
+stderr_empty
+run 0 render $ball -o a.png
+quiet_lines=$(wc -l <err)
+run 0 --verbose render $ball -o a.png
+[ "$(wc -l <err)" -gt "$quiet_lines" ] || fail "--verbose says no more than the default"
+
+# Both drivers, both integrators, the steps of a pass: one picture.
+run 0 render $ball -o reference.exr --driver reference
+for options in "--integrator integral" "--integrator table" "--steps-per-pass 1" "--steps-per-pass 64 --z-update-every never" \
+    "--reentry peel" "--table-format 16f --integrator table" "--threads 1"; do
+    run 0 render $ball -o b.exr $options
+    run 0 compare reference.exr b.exr --warn 0.004
+done
+
+# The camera's options act.
+for options in "--azimuth 40" "--elevation 30" "--roll 20" "--zoom 1.5" "--view-angle 50 --camera-position 0,0,4" \
+    "--parallel-scale 3" "--focal-point 0.3,0,0" "--color-map Viridis" "--opacity 0:0,1:2" "--range 0,0.5" \
+    "--unit-distance 0.01" "--background 0.5,0.5,0.5"; do
+    run 0 render $ball -o c.exr $options
+    run 2 compare reference.exr c.exr
+done
+run 0 render $ball -o d.exr --azimuth 360 --zoom 1 --background transparent --view-up 0,1,0
+run 0 compare reference.exr d.exr
+
+# A file as input, by the reader.
+run 0 synth ball --cells 3000 -o ball.vtu
+there ball.vtu
+run 0 render ball.vtu --size 32x24 -o e.exr
+run 0 compare reference.exr e.exr
+
+# An empty picture is never silent, not even with --quiet, and says why.
+run 0 render $ball -o f.png --opacity 0:0,1:0 --quiet
+says "the opacity is 0 for every value"
+run 0 render $ball -o f.png --camera-position 0,0,5 --focal-point 0,0,9 --quiet
+says "behind the camera"
+run 0 render $ball -o f.png --focal-point 100,0,0 --quiet
+says "outside the view"
+run 0 render $ball -o f.png --quiet --zoom 0.0001
+says "the picture is empty"
+run 0 render $ball -o f.png
+says_not "empty"
+
+# Inputs that fail say so, name the file and write nothing.
+run 1 render no-such-file.vtu
+says "no-such-file.vtu"
+stdout_empty
+absent no-such-file.png
+echo "this is no mesh" >text.vtu
+run 1 render text.vtu
+says "text.vtu"
+absent text.png
+run 1 render ball.vtu --field Nonsense -o g.png
+says "Nonsense"
+absent g.png
+run 2 render $ball -o g.png --color-map "Col to Warm"
+says "Cool to Warm"
+absent g.png
+run 1 render $ball -o g.png --opacity no-such-file.json
+absent g.png
+run 2 render $ball -o g.png --camera-position 0,0,0 --focal-point 0,0,0
+finish

@@ -1,0 +1,46 @@
+#!/bin/sh
+# --stats: the names that scripts rely on, and nothing that was not measured.
+. "$TC_SOURCE/tests/cli/lib.sh"
+sink="synth:heatsink:4000 --size 48x48 -o a.png"
+
+run 0 render $sink --stats s.json --verify 200
+stdout_empty
+version=$(sed -n 's/^#define TC_VERSION_STRING "\(.*\)"/\1/p' "$TC_SOURCE/src/tetcast.h")
+json s.json eq tetcast "$version" has gl.context has gl.renderer has gl.version \
+    ge mesh.points 100 ge mesh.tets 1000 ge mesh.imaginary_tets 1 eq mesh.dropped_cells 0 eq mesh.convex false \
+    eq mesh.reentry convexify ge mesh.gpu_bytes 1 ge mesh.gpu_bytes_per_tet 20 le mesh.gpu_bytes_per_tet 36
+json s.json lacks time_ms.read has time_ms.check has time_ms.adjacency has time_ms.order has time_ms.convexify \
+    has time_ms.pack has time_ms.upload has time_ms.compile has time_ms.first_hit has time_ms.march has time_ms.frame \
+    has time_ms.readback has time_ms.write has time_ms.total lacks time_ms.frame_min lacks time_ms.frame_max
+json s.json eq march.driver pingpong has march.stepper ge march.steps_per_pass 1 ge march.passes 1 has march.z_updates \
+    ge march.rays 100 eq march.rays_lost 0 ge march.steps 1000 ge march.steps_max 5 ge march.steps_per_ray 2 \
+    ge march.steps_per_second 1 type march.fragments_per_pass array ge march.fragments_per_pass.0 1
+json s.json size effects 1 eq effects.0 density-emitter
+json s.json eq verify.pixels 200 has verify.ill_posed le verify.max_abs_error 0.00196 le verify.mean_abs_error 0.0001 \
+    has verify.p999_abs_error eq verify.rays_lost 0
+
+# Repeated: median with its extremes, in order.
+run 0 render $sink --stats r.json --repeat 3
+json r.json eq frames 3 has time_ms.frame has time_ms.frame_min has time_ms.frame_max lacks verify
+frame=$(sed -n 's/.*"frame": \([0-9.e+-]*\).*/\1/p' r.json)
+json r.json le time_ms.frame_min "$frame" ge time_ms.frame_max "$frame"
+
+# The reference has no GPU: what belongs to one is absent.
+run 0 render $sink --driver reference --stats c.json
+json c.json lacks gl eq march.driver reference lacks mesh.gpu_bytes lacks time_ms.upload lacks time_ms.compile \
+    lacks time_ms.table lacks march.passes lacks march.fragments_per_pass lacks march.steps_per_pass
+
+# A file is read, so reading is timed; peeling convexifies nothing.
+run 0 synth heatsink --cells 4000 -o sink.vtu
+run 0 render sink.vtu --size 48x48 -o b.png --stats f.json --reentry peel
+json f.json has time_ms.read eq mesh.reentry peel eq mesh.imaginary_tets 0 lacks time_ms.convexify eq march.rays_lost 0
+
+# --stats - is JSON on stdout and nothing else.
+run 0 render $sink --driver reference --stats -
+cp out stdout.json
+json stdout.json has tetcast
+
+# A convex mesh has no gaps to fill.
+run 0 render synth:kuhn:3000 --size 16x16 -o k.png --stats k.json
+json k.json eq mesh.convex true eq mesh.imaginary_tets 0
+finish
