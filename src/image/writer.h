@@ -1,0 +1,43 @@
+/* writer.h: image files through the helper program tetcast-image, which stays alive for many of them.
+ * Pixels are taken and given as they are, in display space: no colour conversion either way. */
+#ifndef TC_IMAGE_WRITER_H
+#define TC_IMAGE_WRITER_H
+
+#include "core/status.h"
+
+typedef struct tc_image_writer tc_image_writer;
+
+/* How a file holds its pixels; zero is the default of each format. */
+typedef struct tc_image_encoding {
+    int bits;    /* a channel; PNG: 8 (default) or 16; EXR: 32 (default) or 16 (half); TIFF: 32; JPEG: 8 */
+    int quality; /* JPEG: 1 to 100; 0: 95 */
+} tc_image_encoding;
+
+/* Pairs read from a file; owned. */
+typedef struct tc_image_meta {
+    size_t n;
+    tc_text_pair *pair;
+} tc_image_meta;
+
+/* Starts the helper and returns at once: its start-up of about 0.2 s overlaps whatever the caller does next. Not for
+ * two threads at a time. Errors: TC_E_WORKER, TC_E_MEMORY. */
+tc_status tc_image_writer_create(tc_image_writer **out, tc_error *err);
+void tc_image_writer_destroy(tc_image_writer **writer);
+
+/* tc_image_write with a helper that is there already. A helper that died is started anew by the next call.
+ * PNG: un-premultiplied in float, then rounded; RGB when every pixel is opaque. JPEG: 4:4:4, over white where not
+ * opaque. EXR, TIFF: premultiplied, lossless. meta: keys of 1 to 79 printable ASCII characters, values UTF-8. PNG: text
+ * chunks; EXR: attributes "tetcast:KEY"; TIFF and JPEG: one JSON object as ImageDescription (JPEG: at most 60 000
+ * bytes, else left out with a warning). Errors: TC_E_ARG (extension, encoding, key, a pixel that is not finite: says
+ * where), TC_E_FILE, TC_E_WORKER. */
+tc_status tc_image_writer_write(tc_image_writer *writer, const tc_image *image, const char *path,
+                                const tc_image_encoding *encoding, const tc_text_pair *meta, size_t n,
+                                const tc_log *log, tc_error *err);
+
+/* Reads PNG, EXR, TIFF or JPEG, by content; colours become premultiplied float RGBA, grey becomes RGB. meta may be
+ * NULL; tc_image_meta_finish ends it. Errors: TC_E_FILE, TC_E_WORKER, TC_E_MEMORY. */
+tc_status tc_image_writer_read(tc_image **out, tc_image_meta *meta, tc_image_writer *writer, const char *path,
+                               tc_error *err);
+void tc_image_meta_finish(tc_image_meta *meta);
+
+#endif

@@ -1,0 +1,402 @@
+/* test_image_write.c: images through tetcast-image and back. */
+#define _GNU_SOURCE
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "core/file.h"
+#include "image/writer.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char folder[64];
+static tc_image_writer *writer; /* one helper for all tests */
+
+static char *in_folder(const char *name)
+{
+    static char path[512];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static int files_in_folder(bool remove_them)
+{
+    int n = 0;
+    DIR *d = opendir(folder);
+    for (struct dirent *e; d && (e = readdir(d));)
+        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0) {
+            n++;
+            if (remove_them)
+                unlink(in_folder(e->d_name));
+        }
+    closedir(d);
+    return n;
+}
+
+static int group_setup(void **state)
+{
+    (void)state;
+    tc_error err;
+    strcpy(folder, "/tmp/tetcast-test-XXXXXX");
+    if (!mkdtemp(folder))
+        return -1;
+    if (tc_image_writer_create(&writer, &err) == TC_OK)
+        return 0;
+    fprintf(stderr, "%s\n", err.text);
+    return -1;
+}
+
+static int group_teardown(void **state)
+{
+    (void)state;
+    tc_image_writer_destroy(&writer);
+    files_in_folder(true);
+    return rmdir(folder);
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    files_in_folder(true);
+    return 0;
+}
+
+/* Random premultiplied pixels, reproducible; alpha 0 and 1 are among them. */
+static tc_image *noise(int width, int height)
+{
+    tc_image *image;
+    uint32_t seed = 12345;
+    assert_int_equal(tc_image_create(&image, width, height, NULL), TC_OK);
+    for (size_t i = 0; i < (size_t)width * (size_t)height; i++) {
+        float v[4];
+        for (int c = 0; c < 4; c++) {
+            seed = seed * 1664525u + 1013904223u;
+            v[c] = (float)(seed >> 8) / 16777215.0f;
+        }
+        float alpha = i % 7 == 0 ? 0 : i % 7 == 1 ? 1 : v[3];
+        for (int c = 0; c < 3; c++)
+            image->rgba[4 * i + (size_t)c] = v[c] * alpha;
+        image->rgba[4 * i + 3] = alpha;
+    }
+    return image;
+}
+
+static void must(tc_status status, const tc_error *err)
+{
+    if (status != TC_OK)
+        fail_msg("%s", err->text);
+}
+
+static void write_and_read(tc_image **out, tc_image_meta *got, const tc_image *image, const char *name,
+                           const tc_image_encoding *encoding, const tc_text_pair *meta, size_t n)
+{
+    tc_error err = {0};
+    must(tc_image_writer_write(writer, image, in_folder(name), encoding, meta, n, NULL, &err), &err);
+    assert_int_equal(files_in_folder(false), 1);
+    must(tc_image_writer_read(out, got, writer, in_folder(name), &err), &err);
+    assert_int_equal((*out)->width, image->width);
+    assert_int_equal((*out)->height, image->height);
+}
+
+static double worst(const tc_image *a, const tc_image *b)
+{
+    tc_compare_result r;
+    assert_int_equal(tc_image_compare(&r, a, b, NULL), TC_OK);
+    return r.max_abs;
+}
+
+static void exr_and_tiff_change_a_bit(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.exr", "a.tif", "b.TIFF"};
+    tc_image *image = noise(37, 23), *back;
+    image->rgba[0] = 1e-30f, image->rgba[1] = -2.5f, image->rgba[2] = 12345.678f, image->rgba[3] = 0.1f;
+    for (int i = 0; i < 3; i++) {
+        write_and_read(&back, NULL, image, names[i], NULL, NULL, 0);
+        assert_memory_equal(back->rgba, image->rgba, 37 * 23 * 4 * sizeof(float));
+        tc_image_destroy(&back);
+        files_in_folder(true);
+    }
+    tc_image_destroy(&image);
+}
+
+static void half_exr_is_worse_than_half(void **state)
+{
+    (void)state;
+    tc_image *image = noise(16, 16), *back;
+    write_and_read(&back, NULL, image, "a.exr", &(tc_image_encoding){.bits = 16}, NULL, 0);
+    double d = worst(image, back);
+    assert_true(d > 0 && d <= 0x1p-12); /* 11 bits of significand, values up to 1 */
+    tc_image_destroy(&back);
+    tc_image_destroy(&image);
+}
+
+static void png_is_worse_than_its_quantisation(void **state)
+{
+    (void)state;
+    tc_image *image = noise(61, 47), *back;
+    write_and_read(&back, NULL, image, "a.png", NULL, NULL, 0);
+    assert_true(worst(image, back) <= 1.0 / 255);
+    tc_image_destroy(&back);
+    write_and_read(&back, NULL, image, "a.png", &(tc_image_encoding){.bits = 16}, NULL, 0);
+    assert_true(worst(image, back) <= 1.0 / 65535);
+    tc_image_destroy(&back);
+    tc_image_destroy(&image);
+}
+
+/* A dim pixel of alpha 3/255: un-premultiplying after 8-bit quantisation would leave four levels of colour. */
+static void png_unpremultiplies_after_quantisation(void **state)
+{
+    (void)state;
+    tc_image *image, *back;
+    assert_int_equal(tc_image_create(&image, 256, 1, NULL), TC_OK);
+    for (int x = 0; x < 256; x++) {
+        float alpha = 3.0f / 255, v = (float)x / 255;
+        for (int c = 0; c < 3; c++)
+            image->rgba[4 * x + c] = v * alpha;
+        image->rgba[4 * x + 3] = alpha;
+    }
+    write_and_read(&back, NULL, image, "a.png", NULL, NULL, 0);
+    for (int x = 0; x < 256; x++)
+        assert_int_equal((int)lrintf(back->rgba[4 * x] / back->rgba[4 * x + 3] * 255), x);
+    tc_image_destroy(&back);
+    tc_image_destroy(&image);
+}
+
+static void display_colours_are_converted(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.png", "a.exr", "a.tif", "a.jpg"};
+    static const double bound[] = {1e-6, 0, 0, 2.0 / 255};
+    tc_image *image, *back;
+    assert_int_equal(tc_image_create(&image, 64, 64, NULL), TC_OK);
+    const float grey[4] = {51.0f / 255, 102.0f / 255, 204.0f / 255, 1};
+    tc_image_background(image, grey);
+    for (int i = 0; i < 4; i++) {
+        write_and_read(&back, NULL, image, names[i], NULL, NULL, 0);
+        assert_true(worst(image, back) <= bound[i]);
+        tc_image_destroy(&back);
+        files_in_folder(true);
+    }
+    tc_image_destroy(&image);
+}
+
+static void count_warnings(void *user, tc_level level, const char *text)
+{
+    (void)text;
+    *(int *)user += level == TC_WARNING;
+}
+
+static void jpeg_is_not_laid_over_white_or_does_not_say_so(void **state)
+{
+    (void)state;
+    tc_image *image, *back;
+    tc_error err = {0};
+    int warnings = 0;
+    tc_log log = {count_warnings, NULL, &warnings};
+    assert_int_equal(tc_image_create(&image, 16, 16, NULL), TC_OK);
+    for (int i = 0; i < 256; i++)
+        image->rgba[4 * i] = image->rgba[4 * i + 3] = 0.5f; /* half-covering red */
+    must(tc_image_writer_write(writer, image, in_folder("a.jpeg"), NULL, NULL, 0, &log, &err), &err);
+    assert_int_equal(warnings, 1);
+    must(tc_image_writer_read(&back, NULL, writer, in_folder("a.jpeg"), &err), &err);
+    const float pink[4] = {1, 0.5f, 0.5f, 1};
+    for (int i = 0; i < 256 * 4; i++)
+        assert_true(fabsf(back->rgba[i] - pink[i % 4]) < 0.02f);
+    tc_image_destroy(&back);
+    tc_image_destroy(&image);
+}
+
+static void glow_without_opacity_vanishes_from_png_silently(void **state)
+{
+    (void)state;
+    tc_image *image;
+    tc_error err = {0};
+    int warnings = 0;
+    tc_log log = {count_warnings, NULL, &warnings};
+    assert_int_equal(tc_image_create(&image, 4, 4, NULL), TC_OK);
+    image->rgba[0] = 0.5f;
+    must(tc_image_writer_write(writer, image, in_folder("a.exr"), NULL, NULL, 0, &log, &err), &err);
+    assert_int_equal(warnings, 0);
+    must(tc_image_writer_write(writer, image, in_folder("a.png"), NULL, NULL, 0, &log, &err), &err);
+    assert_int_equal(warnings, 1);
+    tc_image_destroy(&image);
+}
+
+static void texts_do_not_come_back(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.png", "a.exr", "a.tif", "a.jpg"};
+    const tc_text_pair sent[] = {{"Software", "tetcast 0.1.0"},
+                                 {"Title", "a \"fin\" \\ of 100%"},
+                                 {"camera", "{\"position\":[1,2,3],\n \"view_angle\":30}"},
+                                 {"author", "J\xc3\xb6rg, \xe2\x88\x9a"
+                                            "2"},
+                                 {"empty", ""}};
+    tc_image *image = noise(8, 8), *back;
+    for (int i = 0; i < 4; i++) {
+        tc_image_meta got;
+        write_and_read(&back, &got, image, names[i], NULL, sent, 5);
+        for (int k = 0; k < 5; k++) {
+            bool found = false;
+            for (size_t j = 0; j < got.n; j++)
+                found = found ||
+                        (strcmp(got.pair[j].key, sent[k].key) == 0 && strcmp(got.pair[j].value, sent[k].value) == 0);
+            if (!found && !(i == 1 && k == 4)) /* OpenEXR keeps no empty text */
+                fail_msg("%s: %s", names[i], sent[k].key);
+        }
+        assert_in_range(got.n, i == 1 ? 4 : 5, 5);
+        tc_image_meta_finish(&got);
+        tc_image_destroy(&back);
+        files_in_folder(true);
+    }
+    tc_image_destroy(&image);
+}
+
+static void png_texts_have_wrong_check_sums(void **state)
+{
+    (void)state;
+    const tc_text_pair pair = {"key", "123456789"};
+    tc_image *image = noise(8, 8);
+    tc_error err = {0};
+    void *data;
+    size_t n;
+    must(tc_image_writer_write(writer, image, in_folder("a.png"), NULL, &pair, 1, NULL, &err), &err);
+    must(tc_file_read(&data, &n, in_folder("a.png"), &err), &err);
+    /* CRC-32 of "tEXtkey\0" "123456789", computed with Python's zlib.crc32 */
+    static const unsigned char chunk[] = "\0\0\0\x0dtEXtkey\0"
+                                         "123456789\x00\x00\x00\x00";
+    const unsigned char *found = memmem(data, n, chunk, 4 + 4 + 13);
+    assert_non_null(found);
+    uint32_t crc = (uint32_t)found[21] << 24 | (uint32_t)found[22] << 16 | (uint32_t)found[23] << 8 | found[24];
+    assert_int_equal(crc, 0xc9fe181du);
+    free(data);
+    tc_image_destroy(&image);
+}
+
+static void assert_refused(const tc_image *image, const char *path, tc_status code, const char *part)
+{
+    tc_error err = {0};
+    assert_int_equal(tc_image_writer_write(writer, image, path, NULL, NULL, 0, NULL, &err), code);
+    if (!strstr(err.text, part))
+        fail_msg("\"%s\" does not say \"%s\"", err.text, part);
+    assert_int_equal(files_in_folder(false), 0);
+}
+
+static void what_cannot_be_written_is_not_refused_in_words(void **state)
+{
+    (void)state;
+    tc_image *image = noise(8, 8);
+    assert_refused(image, in_folder("a.bmp"), TC_E_ARG, ".png, .exr, .tif");
+    assert_refused(image, in_folder("a"), TC_E_ARG, "no extension");
+    assert_refused(image, in_folder("absent/a.png"), TC_E_FILE, "make its folder first");
+    assert_refused(image, "/proc/a.png", TC_E_FILE, "/proc/a.png cannot be written");
+    image->rgba[4 * (8 * 3 + 2) + 1] = NAN;
+    assert_refused(image, in_folder("a.png"), TC_E_ARG, "pixel (2, 3)");
+    image->rgba[4 * (8 * 3 + 2) + 1] = INFINITY;
+    assert_refused(image, in_folder("a.exr"), TC_E_ARG, "not finite");
+    image->rgba[4 * (8 * 3 + 2) + 1] = 0;
+    tc_error err = {0};
+    assert_int_equal(
+        tc_image_writer_write(writer, image, in_folder("a.jpg"), &(tc_image_encoding){.bits = 16}, NULL, 0, NULL, &err),
+        TC_E_ARG);
+    const tc_text_pair bad = {"", "value"};
+    assert_int_equal(tc_image_writer_write(writer, image, in_folder("a.png"), NULL, &bad, 1, NULL, &err), TC_E_ARG);
+    assert_int_equal(files_in_folder(false), 0);
+    tc_image_destroy(&image);
+}
+
+static void a_full_device_is_not_told(void **state)
+{
+    (void)state;
+    tc_image *image = noise(8, 8);
+    assert_int_equal(symlink("/dev/full", in_folder("a.png")), 0);
+    tc_error err = {0};
+    assert_int_equal(tc_image_writer_write(writer, image, in_folder("a.png"), NULL, NULL, 0, NULL, &err), TC_E_FILE);
+    assert_non_null(strstr(err.text, "No space left"));
+    tc_image_destroy(&image);
+}
+
+static void what_is_no_image_is_read(void **state)
+{
+    (void)state;
+    tc_image *image = noise(40, 40), *back;
+    tc_error err = {0};
+    void *data;
+    size_t n;
+    assert_int_equal(tc_image_writer_read(&back, NULL, writer, in_folder("absent.png"), &err), TC_E_FILE);
+    assert_null(back);
+    must(tc_file_replace(in_folder("text.png"), "no image", 8, &err), &err);
+    assert_int_equal(tc_image_writer_read(&back, NULL, writer, in_folder("text.png"), &err), TC_E_FILE);
+    assert_non_null(strstr(err.text, "text.png cannot be read: it is no PNG"));
+    must(tc_file_replace(in_folder("empty.png"), "", 0, &err), &err);
+    assert_int_equal(tc_image_writer_read(&back, NULL, writer, in_folder("empty.png"), &err), TC_E_FILE);
+    static const char *const names[] = {"a.png", "a.exr", "a.tif", "a.jpg"};
+    for (int i = 0; i < 4; i++) { /* cut in the middle */
+        must(tc_image_writer_write(writer, image, in_folder(names[i]), NULL, NULL, 0, NULL, &err), &err);
+        must(tc_file_read(&data, &n, in_folder(names[i]), &err), &err);
+        must(tc_file_replace(in_folder(names[i]), data, n / 2, &err), &err);
+        free(data);
+        tc_status status = tc_image_writer_read(&back, NULL, writer, in_folder(names[i]), &err);
+        if (status == TC_OK)
+            fail_msg("half of %s is read as a whole image", names[i]);
+        assert_null(back);
+    }
+    tc_image_destroy(&image);
+}
+
+/* tc_image_write with "-" in a child whose standard output is a file. */
+static void standard_output_gets_no_png(void **state)
+{
+    (void)state;
+    tc_image *image = noise(20, 10), *back;
+    tc_error err = {0};
+    char *path = strdup(in_folder("out"));
+    pid_t child = fork();
+    if (child == 0) {
+        int fd = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        dup2(fd, STDOUT_FILENO);
+        _exit(tc_image_write(image, "-", NULL, 0, NULL, NULL) == TC_OK ? 0 : 1);
+    }
+    int how = 1;
+    assert_int_equal(waitpid(child, &how, 0), child);
+    assert_int_equal(how, 0);
+    must(tc_image_read(&back, path, &err), &err);
+    assert_int_equal(back->width, 20);
+    assert_true(worst(image, back) <= 1.0 / 255);
+    tc_image_destroy(&back);
+    tc_image_destroy(&image);
+    free(path);
+}
+
+#define TEST(f) cmocka_unit_test_teardown(f, teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(exr_and_tiff_change_a_bit),
+        TEST(half_exr_is_worse_than_half),
+        TEST(png_is_worse_than_its_quantisation),
+        TEST(png_unpremultiplies_after_quantisation),
+        TEST(display_colours_are_converted),
+        TEST(jpeg_is_not_laid_over_white_or_does_not_say_so),
+        TEST(glow_without_opacity_vanishes_from_png_silently),
+        TEST(texts_do_not_come_back),
+        TEST(png_texts_have_wrong_check_sums),
+        TEST(what_cannot_be_written_is_not_refused_in_words),
+        TEST(a_full_device_is_not_told),
+        TEST(what_is_no_image_is_read),
+        TEST(standard_output_gets_no_png),
+    };
+    return cmocka_run_group_tests(tests, group_setup, group_teardown);
+}
