@@ -222,5 +222,6 @@ tc_status tc_reference_render(tc_image *image, const tc_reference *reference, co
     tc_parallel_for((size_t)image->height, 1, threads, render_rows, &c);
     if (atomic_load(&c.memory_out))
         return tc_fail(err, TC_E_MEMORY, "out of memory while the reference caster collected the segments of a ray");
+    tc_progress(log, "reference", 1);
     return TC_OK;
 }

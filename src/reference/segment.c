@@ -42,10 +42,10 @@ static double gauss(double alpha, double beta, double x0, double x1, int n)
 static double first_moment(double t0, double t1, double depth)
 {
     if (t0 == t1) {
-        if (depth > 0.02)
+        if (depth > 0.5)
             return (1 - exp(-depth) * (1 + depth)) / depth;
         double sum = 0, term = depth; /* sum of (-1)^k depth^(k+1) / (k! (k+2)) */
-        for (int k = 0; k < 8; k++) {
+        for (int k = 0; k < 16; k++) {
             sum += term / (k + 2);
             term *= -depth / (k + 1);
         }

@@ -19,6 +19,8 @@
 
 /* A ray through a point of the box comes this near its centre (the boxes are padded). */
 static const double REACH = 1.00001;
+/* Rounding of a projected coordinate, in the scaled unit; depths less certain than DOUBT move the ray by ASIDE. */
+static const double ROUNDING = 4e-16, DOUBT = 1e-8, ASIDE = 0x1p-40;
 
 void tc_line_init(tc_line *out, const tc_reference *reference, const double origin[3], const double direction[3],
                   double t_min)
@@ -85,18 +87,24 @@ static double blend(const double w[3], double total, double a, double b, double 
     return fmin(fmax(x, fmin(a, fmin(b, c))), fmax(a, fmax(b, c)));
 }
 
-/* Depth and scalar where the ray passes face i < j < k, whose crosses are given. */
-static void pass_face(double *t, double *s, const double z[4], const double value[4], int i, int j, int k, double ij,
-                      double jk, double ik)
+/* Depth and scalar where the ray passes face i < j < k, whose crosses are given. The result bounds the error of the
+ * depth that the rounding of the projection brings. */
+static double pass_face(double *t, double *s, const corner p[4], const double z[4], const double value[4], int i, int j,
+                        int k, double ij, double jk, double ik)
 {
     const double w[3] = {fabs(jk), fabs(ik), fabs(ij)};
     double total = w[0] + w[1] + w[2];
     *t = blend(w, total, z[i], z[j], z[k]);
     *s = blend(w, total, value[i], value[j], value[k]);
+    double deep = fmax(z[i], fmax(z[j], z[k])) - fmin(z[i], fmin(z[j], z[k]));
+    double rim = fabs(p[i].x) + fabs(p[i].y) + fabs(p[j].x) + fabs(p[j].y) + fabs(p[k].x) + fabs(p[k].y);
+    double error = ROUNDING * 2 * rim * deep;
+    return error < DOUBT * total ? 0 : fmin(error / total, deep);
 }
 
-/* The part of the ray in tet number item; false: none. */
-static bool clip(tc_hit *hit, const tc_reference *reference, const tc_line *line, uint32_t item, double shift)
+/* The part of the ray in tet number item; false: none. *worst is raised to the error of its depths. */
+static bool clip(tc_hit *hit, double *worst, const tc_reference *reference, const tc_line *line, uint32_t item,
+                 double shift)
 {
     const int32_t *id = reference->tet[item];
     corner p[4];
@@ -127,14 +135,16 @@ static bool clip(tc_hit *hit, const tc_reference *reference, const tc_line *line
         value[i] += shift;
     }
     int n = 0;
+    double doubt = 0;
     if (f012)
-        pass_face(&t[n], &s[n], z, value, 0, 1, 2, c01, c12, c02), n++;
+        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 0, 1, 2, c01, c12, c02)), n++;
     if (f013)
-        pass_face(&t[n], &s[n], z, value, 0, 1, 3, c01, c13, c03), n++;
+        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 0, 1, 3, c01, c13, c03)), n++;
     if (f023)
-        pass_face(&t[n], &s[n], z, value, 0, 2, 3, c02, c23, c03), n++;
+        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 0, 2, 3, c02, c23, c03)), n++;
     if (f123)
-        pass_face(&t[n], &s[n], z, value, 1, 2, 3, c12, c23, c13), n++;
+        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 1, 2, 3, c12, c23, c13)), n++;
+    *worst = fmax(*worst, doubt);
     int first = t[0] <= t[1] ? 0 : 1;
     *hit = (tc_hit){t[first], t[1 - first], s[first], s[1 - first], tet};
     for (int i = 0; i < 4; i++)
@@ -183,10 +193,12 @@ static float enter(const slab *s, const tc_bvh_box *b)
     return t0 <= t1 ? t0 : FLT_MAX;
 }
 
-/* Collects the hits of one ray; *n gets their number. */
-static bool collect(size_t *n, tc_scratch *scratch, const tc_reference *reference, const tc_line *line, double shift)
+/* Collects the hits of one ray; *n gets their number, *worst the largest error of a depth (0: all below DOUBT). */
+static bool collect(size_t *n, double *worst, tc_scratch *scratch, const tc_reference *reference, const tc_line *line,
+                    double shift)
 {
     *n = 0;
+    *worst = 0;
     if (reference->bvh.n_node == 0 || tc_vec_dot(line->base, line->base) > REACH * REACH)
         return true;
     slab s;
@@ -206,7 +218,7 @@ static bool collect(size_t *n, tc_scratch *scratch, const tc_reference *referenc
         const tc_bvh_node *at = &node[stack[--top]];
         for (uint32_t i = 0; i < at->count; i++) {
             tc_hit hit;
-            if (clip(&hit, reference, line, at->first + i, shift) && !push(scratch, (*n)++, &hit))
+            if (clip(&hit, worst, reference, line, at->first + i, shift) && !push(scratch, (*n)++, &hit))
                 return false;
         }
         if (at->count)
@@ -219,6 +231,30 @@ static bool collect(size_t *n, tc_scratch *scratch, const tc_reference *referenc
             stack[top++] = near_child;
     }
     return true;
+}
+
+/* The same, from beside the line if its depths are in doubt: the best of up to five places. */
+static bool collect_surely(size_t *n, tc_scratch *scratch, const tc_reference *reference, const tc_line *line,
+                           double shift)
+{
+    double worst, least;
+    if (!collect(n, &least, scratch, reference, line, shift))
+        return false;
+    if (least == 0)
+        return true;
+    tc_line best = *line, moved = *line;
+    for (int k = 0; k < 4; k++) {
+        double angle = 1 + 2.4 * k, by = k < 2 ? ASIDE : 16 * ASIDE; /* radians: no direction of a grid */
+        tc_vec_mul_add(moved.base, line->base, by * cos(angle), line->u);
+        tc_vec_mul_add(moved.base, moved.base, by * sin(angle), line->v);
+        if (!collect(n, &worst, scratch, reference, &moved, shift))
+            return false;
+        if (worst < least)
+            least = worst, best = moved;
+        if (least == 0)
+            return true;
+    }
+    return collect(n, &worst, scratch, reference, &best, shift);
 }
 
 /* By entry, then exit, then cell: the same order however the hierarchy was built. */
@@ -258,7 +294,7 @@ tc_status tc_line_trace(tc_reference_ray *out, const tc_reference *reference, co
     *out = (tc_reference_ray){.length = 0};
     tc_scratch *scratch = &reference->scratch[worker];
     size_t n;
-    if (!collect(&n, scratch, reference, line, shift))
+    if (!collect_surely(&n, scratch, reference, line, shift))
         return TC_E_MEMORY;
     sort(scratch->hit, n);
     tc_segment_sum sum = {.rgba = {0, 0, 0, 0}, .clear = 1};

@@ -239,6 +239,7 @@ tc_status tc_reference_verify(tc_verify_result *out, const tc_image *image, size
         goto done;
     }
     reduce(out, &c);
+    tc_progress(log, "verify", 1);
 done:
     free(pixel);
     free(error);
