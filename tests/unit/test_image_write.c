@@ -12,6 +12,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -351,8 +352,35 @@ static void what_is_no_image_is_read(void **state)
         if (status == TC_OK)
             fail_msg("half of %s is read as a whole image", names[i]);
         assert_null(back);
+        assert_null(strstr(err.text, "/proc/"));
     }
     tc_image_destroy(&image);
+}
+
+static void a_helper_that_died_is_not_started_anew(void **state)
+{
+    (void)state;
+    tc_image *image = noise(8, 8);
+    tc_error err = {0};
+    int pid = 0;
+    FILE *children = fopen("/proc/thread-self/children", "r");
+    int found = children ? fscanf(children, "%d", &pid) : 0;
+    if (children)
+        fclose(children);
+    if (found == 1) {
+        siginfo_t info;
+        kill(pid, SIGKILL);
+        waitid(P_PID, (id_t)pid, &info, WEXITED | WNOWAIT);
+        assert_int_equal(tc_image_writer_write(writer, image, in_folder("a.png"), NULL, NULL, 0, NULL, &err),
+                         TC_E_WORKER);
+        assert_non_null(strstr(err.text, "a.png cannot be written: tetcast-image ended with signal 9"));
+        assert_int_equal(files_in_folder(false), 0);
+        must(tc_image_writer_write(writer, image, in_folder("a.png"), NULL, NULL, 0, NULL, &err), &err);
+        assert_int_equal(files_in_folder(false), 1);
+    }
+    tc_image_destroy(&image);
+    if (found != 1)
+        skip(); /* a kernel without CONFIG_PROC_CHILDREN */
 }
 
 /* tc_image_write with "-" in a child whose standard output is a file. */
@@ -396,6 +424,7 @@ int main(void)
         TEST(what_cannot_be_written_is_not_refused_in_words),
         TEST(a_full_device_is_not_told),
         TEST(what_is_no_image_is_read),
+        TEST(a_helper_that_died_is_not_started_anew),
         TEST(standard_output_gets_no_png),
     };
     return cmocka_run_group_tests(tests, group_setup, group_teardown);

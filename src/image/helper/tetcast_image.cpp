@@ -16,6 +16,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <sys/mman.h>
@@ -59,9 +60,10 @@ struct json_owner {
     ~json_owner() { json_decref(json); }
 };
 
-/* One line of OpenImageIO's report. */
+/* One line of OpenImageIO's report, without the path by which it knows the file. */
 std::runtime_error failure(std::string text)
 {
+    text = std::regex_replace(text, std::regex(R"re( ?\(?"?/proc/self/fd/\d+"?\)?)re"), "");
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
         text.pop_back();
     for (char &c : text)
