@@ -15,8 +15,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <cstring>
-
 namespace tetcast
 {
 
@@ -135,38 +133,6 @@ void gather_points(Tets &out, const Gathered &from)
     }
     for (size_t i = 0; i < from.n_point; i++)
         out.rank[i] = (int32_t)i;
-}
-
-void rank_points(Tets &out)
-{
-    const size_t n = out.n_file_point;
-    size_t capacity = 16;
-    while (capacity < 2 * n)
-        capacity *= 2;
-    std::vector<int32_t> slot(capacity, -1);
-    for (size_t i = 0; i < n; i++) {
-        double x[3];
-        uint64_t bits[3], hash = 0;
-        for (int k = 0; k < 3; k++) {
-            x[k] = out.point[3 * i + (size_t)k] + 0.0; // -0 and 0 are one place
-            memcpy(&bits[k], &x[k], sizeof bits[k]);
-            hash = (hash ^ bits[k]) * UINT64_C(0x9e3779b97f4a7c15);
-            hash ^= hash >> 29;
-        }
-        size_t at = (size_t)(hash * UINT64_C(0xbf58476d1ce4e5b9) >> 20) & (capacity - 1);
-        for (;; at = (at + 1) & (capacity - 1)) {
-            const int32_t other = slot[at];
-            if (other < 0) {
-                slot[at] = (int32_t)i;
-                break;
-            }
-            const double *y = out.at(other);
-            if (y[0] == x[0] && y[1] == x[1] && y[2] == x[2]) {
-                out.rank[i] = other;
-                break;
-            }
-        }
-    }
 }
 
 } // namespace tetcast

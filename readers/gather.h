@@ -37,10 +37,6 @@ void count_cells(Gathered &out, const std::string &path);
 // Copies the coordinates; ranks are the point numbers.
 void gather_points(Tets &out, const Gathered &from);
 
-// Gives coinciding points (equal coordinates, bit by bit) the rank of the first of them.
-// Cost: O(n) time, 16 bytes a point of scratch.
-void rank_points(Tets &out);
-
 // Is the leaf's cell one to leave out as ghost or blanked?
 bool is_ghost(const Leaf &leaf, size_t cell);
 

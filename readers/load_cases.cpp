@@ -147,6 +147,38 @@ class CgnsReader : public NamedReader<vtkCGNSReader, ArrayNames<vtkCGNSReader>>
 class EnsightReader : public NamedReader<vtkGenericEnSightReader, ArrayNames<vtkGenericEnSightReader>>
 {
   public:
+    // A complex vector is chosen by its name, but comes as two arrays, NAME_r and NAME_i.
+    std::vector<Offered> arrays() const override
+    {
+        std::vector<Offered> all;
+        for (const Offered &o : NamedReader::arrays()) {
+            if (!is_complex_vector(o.name)) {
+                all.push_back(o);
+                continue;
+            }
+            for (const char *part : {"_r", "_i"}) {
+                all.push_back(o);
+                all.back().name += part;
+            }
+        }
+        return all;
+    }
+    void select(const FieldWish &wish, bool everything) override
+    {
+        NamedReader::select(wish, everything);
+        for (const Offered &o : NamedReader::arrays())
+            if (is_complex_vector(o.name) && (may_be_wanted(wish, o.name + "_r", o.association) ||
+                                              may_be_wanted(wish, o.name + "_i", o.association))) {
+                if (o.association == TC_POINT_DATA)
+                    reader->SetPointArrayStatus(o.name.c_str(), 1);
+                else
+                    reader->SetCellArrayStatus(o.name.c_str(), 1);
+            }
+    }
+    bool is_complex_vector(const std::string &name) const
+    {
+        return std::find(complex_vectors.begin(), complex_vectors.end(), name) != complex_vectors.end();
+    }
     // VTK asks for the files one by one and does not say which is missing: look first.
     void open(VtkTalk &talk) override
     {
@@ -155,6 +187,8 @@ class EnsightReader : public NamedReader<vtkGenericEnSightReader, ArrayNames<vtk
         std::ifstream file(path);
         std::string line;
         while (std::getline(file, line)) {
+            if (line.compare(0, 18, "complex vector per") == 0)
+                note_complex(line);
             if (line.compare(0, 6, "model:") != 0)
                 continue;
             std::istringstream words(line.substr(6));
@@ -169,6 +203,20 @@ class EnsightReader : public NamedReader<vtkGenericEnSightReader, ArrayNames<vtk
                 throw Refusal(path + " names the geometry file " + last + ", which is not beside it");
         }
         Reader::open(talk);
+    }
+
+  private:
+    std::vector<std::string> complex_vectors;
+
+    // "complex vector per node: [time set] [file set] NAME real-file imaginary-file frequency"
+    void note_complex(const std::string &line)
+    {
+        std::istringstream words(line.substr(std::min(line.size(), line.find(':') + 1)));
+        std::vector<std::string> word;
+        for (std::string w; words >> w;)
+            word.push_back(w);
+        if (word.size() >= 4)
+            complex_vectors.push_back(word[word.size() - 4]);
     }
 };
 

@@ -44,7 +44,7 @@ static int64_t expected_bytes(const tc_plot3d_layout *layout, const unsigned cha
     return total;
 }
 
-static bool fits(tc_plot3d_layout *layout, const unsigned char *head, size_t n_head, int64_t size)
+static bool fits(tc_plot3d_layout *layout, const unsigned char *head, size_t n_head, int64_t size, bool padded)
 {
     size_t at = layout->byte_counts ? 4 : 0;
     layout->n_grid = 1;
@@ -63,7 +63,9 @@ static bool fits(tc_plot3d_layout *layout, const unsigned char *head, size_t n_h
     }
     if (at + 12 * layout->n_grid > n_head)
         return false;
-    return expected_bytes(layout, head + at, &layout->n_point) == size;
+    const int64_t expected = expected_bytes(layout, head + at, &layout->n_point);
+    /* Some files are filled up to whole blocks of 512 bytes. */
+    return expected == size || (padded && expected > 0 && size % 512 == 0 && (expected + 511) / 512 * 512 == size);
 }
 
 tc_status tc_plot3d_layout_of(tc_plot3d_layout *out, const char *path, tc_error *err)
@@ -85,7 +87,7 @@ tc_status tc_plot3d_layout_of(tc_plot3d_layout *out, const char *path, tc_error 
     }
     const size_t n_head = fread(head, 1, capacity, file);
     fclose(file);
-    for (unsigned code = 0; code < 64; code++) {
+    for (unsigned code = 0; code < 128; code++) {
         tc_plot3d_layout layout = {.kind = code & 32 ? TC_PLOT3D_Q : TC_PLOT3D_XYZ,
                                    .big_endian = !(code & 1),
                                    .byte_counts = code & 2,
@@ -94,7 +96,7 @@ tc_status tc_plot3d_layout_of(tc_plot3d_layout *out, const char *path, tc_error 
                                    .double_precision = code & 16};
         if (layout.kind == TC_PLOT3D_Q && layout.iblank)
             continue;
-        if (fits(&layout, head, n_head, (int64_t)st.st_size)) {
+        if (fits(&layout, head, n_head, (int64_t)st.st_size, code & 64)) {
             *out = layout;
             break;
         }

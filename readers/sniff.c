@@ -168,7 +168,7 @@ tc_status tc_sniff_head(tc_sniffed *out, const char *path, const unsigned char *
                        "program that wrote it",
                        path);
     }
-    if (tc_sniff_has(head, n_text, "@(#)ADF Database"))
+    if (tc_sniff_has(head, n_text, "ADF Database Version"))
         return found(out, TC_FORMAT_CGNS, "ADF");
     if (strstr(text, "file-series-version"))
         return found(out, TC_FORMAT_SERIES, "");

@@ -2,6 +2,8 @@
 #include "split_mesh.h"
 
 #include "cell_types.h"
+#include "rank_points.h"
+#include "refine_quadratic.h"
 #include "split_cells.h"
 
 #include <vtkCellArray.h>
@@ -10,6 +12,8 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
 
 namespace tetcast
 {
@@ -58,54 +62,99 @@ void split_point_set(Tets &out, const Leaf &leaf, size_t c)
     }
 }
 
+// The corners of cell c; number is a list to work with.
+void corners_of(int32_t *corner, const Leaf &leaf, vtkUnstructuredGrid *grid, size_t c, Shape shape, vtkIdList *number)
+{
+    vtkIdType n = 0;
+    const vtkIdType *id = nullptr;
+    if (grid) {
+        grid->GetCells()->GetCellAtId((vtkIdType)c, n, id);
+    } else {
+        leaf.data->GetCellPoints((vtkIdType)c, number);
+        id = number->GetPointer(0);
+    }
+    for (int k = 0; k < corner_count(shape); k++)
+        corner[k] = (int32_t)(leaf.first_point + (size_t)id[k]);
+}
+
+// Calls visit(leaf, grid or NULL, cell, type) for every cell of dimension 3.
+template <class Visit> void for_each_solid(const Gathered &data, VtkTalk &talk, const char *what, Visit visit)
+{
+    for (const Leaf &leaf : data.leaf) {
+        vtkUnstructuredGrid *grid = vtkUnstructuredGrid::SafeDownCast(leaf.data);
+        const size_t n = (size_t)leaf.data->GetNumberOfCells();
+        for (size_t c = 0; c < n; c++) {
+            if (c % progress_every == 0)
+                talk.progress(what, (double)(leaf.first_cell + c) / (double)data.n_cell);
+            const CellType &type = cell_type(leaf.data->GetCellType((vtkIdType)c));
+            if (type.dimension == 3 && !is_ghost(leaf, c))
+                visit(leaf, grid, c, type);
+        }
+    }
+}
+
 } // namespace
 
 int split_mesh(Tets &out, const Gathered &data, int refine, std::vector<std::string> &notes, VtkTalk &talk)
 {
-    (void)refine;
-    (void)notes;
     gather_points(out, data);
     bool only_tets = true;
-    for (const auto &entry : data.by_type)
-        only_tets = only_tets && (cell_type(entry.first).dimension < 3 || cell_type(entry.first).shape == Shape::tetra);
-    if (!only_tets)
-        rank_points(out);
-    out.tet.reserve(4 * data.n_solid * (only_tets ? 1 : 6));
-    out.cell.reserve(data.n_solid * (only_tets ? 1 : 6));
-    for (const Leaf &leaf : data.leaf) {
-        vtkUnstructuredGrid *grid = vtkUnstructuredGrid::SafeDownCast(leaf.data);
-        vtkNew<vtkIdList> list;
-        const size_t n = (size_t)leaf.data->GetNumberOfCells();
-        for (size_t c = 0; c < n; c++) {
-            if (c % progress_every == 0)
-                talk.progress("splitting cells", (double)(leaf.first_cell + c) / (double)data.n_cell);
-            const CellType &type = cell_type(leaf.data->GetCellType((vtkIdType)c));
-            if (type.dimension != 3 || is_ghost(leaf, c))
-                continue;
-            if (type.shape == Shape::polyhedron) {
-                split_face_stream(out, leaf, grid, c);
-                continue;
-            }
-            if (type.shape == Shape::points) {
-                split_point_set(out, leaf, c);
-                continue;
-            }
-            vtkIdType m = 0;
-            const vtkIdType *id = nullptr;
-            if (grid) {
-                grid->GetCells()->GetCellAtId((vtkIdType)c, m, id);
-            } else {
-                leaf.data->GetCellPoints((vtkIdType)c, list);
-                m = list->GetNumberOfIds();
-                id = list->GetPointer(0);
-            }
-            int32_t corner[12];
-            for (int k = 0; k < corner_count(type.shape); k++)
-                corner[k] = (int32_t)(leaf.first_point + (size_t)id[k]);
-            split_cell(out, (int64_t)(leaf.first_cell + c), type.shape, corner);
-        }
+    size_t n_fixed = 0; // cells that cannot be refined
+    for (const auto &entry : data.by_type) {
+        const CellType &type = cell_type(entry.first);
+        only_tets = only_tets && (type.dimension < 3 || type.shape == Shape::tetra);
+        n_fixed += type.dimension == 3 && !Refiner::can(type) ? entry.second : 0;
     }
-    return 0;
+    if (refine > 0 && data.n_curved == 0) {
+        notes.push_back("no cell is curved, so nothing was refined");
+        refine = 0;
+    }
+    if (refine > 0 && n_fixed > 0)
+        notes.push_back(std::to_string(n_fixed) +
+                        " cells of types that cannot be refined stay as they are; their faces do "
+                        "not match refined neighbours");
+    vtkNew<vtkIdList> number;
+    if (!only_tets || refine > 0)
+        rank_points(out);
+    if (!only_tets) {
+        EdgeColours colours(out);
+        for_each_solid(data, talk, "colouring edges",
+                       [&](const Leaf &leaf, vtkUnstructuredGrid *grid, size_t c, const CellType &type) {
+                           int32_t corner[12];
+                           if (type.shape != Shape::hexahedron && type.shape != Shape::voxel)
+                               return;
+                           corners_of(corner, leaf, grid, c, type.shape, number);
+                           colours.add_cell(out, type.shape, corner);
+                       });
+        colours.apply(out);
+    }
+    const size_t per_cell = (only_tets ? 1 : 5);
+    if (refine == 0) {
+        out.tet.reserve(4 * data.n_solid * per_cell);
+        out.cell.reserve(data.n_solid * per_cell);
+    }
+    Refiner refiner(out, refine);
+    for_each_solid(data, talk, "splitting cells",
+                   [&](const Leaf &leaf, vtkUnstructuredGrid *grid, size_t c, const CellType &type) {
+                       const int64_t id = (int64_t)(leaf.first_cell + c);
+                       const size_t turned = out.turned_cells, folded = out.folded_cells, centred = out.centred_cells;
+                       int32_t corner[12];
+                       if (type.shape == Shape::polyhedron) {
+                           split_face_stream(out, leaf, grid, c);
+                       } else if (type.shape == Shape::points) {
+                           split_point_set(out, leaf, c);
+                       } else if (refine > 0 && Refiner::can(type)) {
+                           refiner.add(id, type, leaf.data->GetCell((vtkIdType)c), leaf.first_point);
+                       } else {
+                           corners_of(corner, leaf, grid, c, type.shape, number);
+                           split_cell(out, id, type.shape, corner);
+                       }
+                       // Parts of one cell count once.
+                       out.turned_cells = std::min(out.turned_cells, turned + 1);
+                       out.folded_cells = std::min(out.folded_cells, folded + 1);
+                       out.centred_cells = std::min(out.centred_cells, centred + 1);
+                   });
+    return refine;
 }
 
 std::vector<int32_t> compact_points(Tets &tets)
