@@ -186,6 +186,7 @@ double tc_boundary_rounding(const double bounds[6])
 typedef struct plane {
     double point[3], normal[3]; /* unit, or zero */
     double area;                /* twice */
+    double altitude;            /* the least */
 } plane;
 
 static const double *corner(const tc_boundary *b, const double *vertex, int64_t id)
@@ -208,6 +209,10 @@ static plane plane_of(const tc_boundary *b, const double *vertex, int64_t face)
     double lu = tc_vec_normalize(u), lv = tc_vec_normalize(v); /* no overflow for meshes of any size */
     tc_vec_cross(p.normal, u, v);
     p.area = tc_vec_normalize(p.normal) * lu * lv;
+    tc_vec_sub(v, corner(b, vertex, 3 * face + 2), corner(b, vertex, 3 * face + 1));
+    double lw = tc_vec_length(v), longest = lu > lv ? lu : lv;
+    longest = lw > longest ? lw : longest;
+    p.altitude = longest > 0 ? p.area / longest : 0;
     return p;
 }
 
@@ -218,16 +223,21 @@ static double height(const plane *p, const double *x)
     return tc_vec_dot(d, p->normal);
 }
 
+/* A face no wider than the tolerance says nothing: its normal is noise. The fans of its neighbours reach across it. */
 static bool edge_is_convex(const tc_boundary *b, const double *vertex, int64_t id, double tolerance)
 {
     int64_t twin = b->across[id];
     plane p = plane_of(b, vertex, id / 3), q = plane_of(b, vertex, twin / 3);
-    /* the larger face tells the height best */
-    double h = p.area >= q.area ? height(&p, corner(b, vertex, next(next(twin))))
-                                : height(&q, corner(b, vertex, next(next(id))));
+    if (!(p.altitude > tolerance) && !(q.altitude > tolerance))
+        return isfinite(p.altitude) && isfinite(q.altitude);
+    /* the wider face tells the height best */
+    double h = p.altitude >= q.altitude ? height(&p, corner(b, vertex, next(next(twin))))
+                                        : height(&q, corner(b, vertex, next(next(id))));
     if (!(h <= tolerance))
         return false;
-    return h < -tolerance || tc_vec_dot(p.normal, q.normal) > 0; /* flat, not folded back on itself */
+    if (h < -tolerance || !(p.altitude > tolerance) || !(q.altitude > tolerance))
+        return true;
+    return tc_vec_dot(p.normal, q.normal) > 0; /* flat, not folded back on itself */
 }
 
 /* Do the faces around corner `id` lie below the plane of its face? */
@@ -244,19 +254,44 @@ static bool fan_is_convex(const tc_boundary *b, const double *vertex, int64_t id
     return false;
 }
 
+/* How many times the surface goes around the mean of its corners: the sum of its faces' solid angles there (Van
+ * Oosterom and Strackee 1983) over the full one. 1 for a convex surface; 2 for one that is wound twice around itself,
+ * which no edge or fan betrays. */
+static double turns_around_middle(const tc_boundary *b, const double *vertex)
+{
+    double middle[3] = {0, 0, 0}, sum = 0;
+    for (size_t v = 0; v < b->n_vertex; v++)
+        tc_vec_mul_add(middle, middle, 1.0 / (double)b->n_vertex, vertex + 3 * (size_t)b->vertex[v]);
+    for (int64_t f = 0; f < (int64_t)b->n_face; f++) {
+        double p[3][3], c[3];
+        for (int i = 0; i < 3; i++) {
+            tc_vec_sub(p[i], corner(b, vertex, 3 * f + i), middle);
+            tc_vec_normalize(p[i]);
+        }
+        tc_vec_cross(c, p[0], p[1]);
+        sum += atan2(tc_vec_dot(c, p[2]), 1 + tc_vec_dot(p[0], p[1]) + tc_vec_dot(p[1], p[2]) + tc_vec_dot(p[2], p[0]));
+    }
+    return sum / 6.283185307179586;
+}
+
 bool tc_boundary_is_convex(const tc_boundary *b, const double *vertex, double tolerance)
 {
     if (b->n_face == 0 || b->n_odd_edge > 0 || b->n_component != 1)
         return false;
     int64_t n = (int64_t)b->n_face;
+    bool some = false;
     for (int64_t id = 0; id < 3 * n; id++)
         if (b->across[id] > id && !edge_is_convex(b, vertex, id, tolerance))
             return false;
     for (int64_t f = 0; f < n; f++) {
         plane p = plane_of(b, vertex, f);
+        if (!(p.altitude > tolerance))
+            continue;
+        some = true;
         for (int64_t id = 3 * f; id < 3 * f + 3; id++)
             if (!fan_is_convex(b, vertex, id, &p, tolerance))
                 return false;
     }
-    return true;
+    /* a surface thinner than the tolerance in every face is not told */
+    return some && fabs(turns_around_middle(b, vertex) - 1) < 0.01;
 }

@@ -20,8 +20,8 @@ tc_status tc_boundary_build(tc_boundary *out, const tc_mesh *mesh, size_t n_tet,
 void tc_boundary_finish(tc_boundary *b);
 
 /* Is it one closed surface that is convex, up to dents less deep than tolerance (in the mesh's unit)? Every edge and
- * every fan of faces around a vertex is looked at; a closed connected surface that is convex there is convex (Tietze
- * 1928, Nakajima 1928). Cost: O(n_face). */
+ * every fan of faces around a vertex is looked at, and that it goes around its middle once: a closed connected surface
+ * that is convex at every point is convex (Tietze 1928, Nakajima 1928). Cost: O(n_face). */
 bool tc_boundary_is_convex(const tc_boundary *b, const double *vertex, double tolerance);
 
 /* A depth that rounding of coordinates explains: 1e-14 of the diagonal plus 4 units in the last place. */

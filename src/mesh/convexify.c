@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* TetGen calls points coplanar within 1e-8 of the mesh's size: its hull may have dents that deep. */
+/* Dents of the outside that are let pass, in diagonals. TetGen takes points within 1e-8 of a plane as in it, so the
+ * outside may be dented about that deep; coordinates in float, as the GPU has them, dent it by as much. */
 static const double HULL_TOLERANCE = 1e-7;
 
 /* TetGen works with absolute thresholds: it gets points of size near 1, near the origin where that costs no bit. */

@@ -32,68 +32,82 @@ enum { CHUNK = 4096 };
 typedef struct sums {
     const double *vertex;
     const int32_t *tet;
-    double (*part)[2]; /* of each chunk: longest edge, volume */
+    double scale;      /* to size 1, a power of two: no square overflows */
+    double (*part)[2]; /* of each chunk: longest edge squared, six volumes, both scaled */
 } sums;
 
 static void measure_range(void *context, size_t begin, size_t end, int worker)
 {
-    static const uint8_t pair[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
     (void)worker;
-    sums *j = context;
+    const sums *j = context;
     double longest = 0, volume = 0;
     for (size_t t = begin; t < end; t++) {
-        const double *p[4];
-        double u[3], v[3], w[3], c[3];
-        for (int i = 0; i < 4; i++)
-            p[i] = j->vertex + 3 * (size_t)j->tet[4 * t + (size_t)i];
-        for (int e = 0; e < 6; e++) {
-            tc_vec_sub(u, p[pair[e][1]], p[pair[e][0]]);
-            double l = hypot(hypot(u[0], u[1]), u[2]);
-            longest = l > longest && isfinite(l) ? l : longest;
+        double e[6][3], c[3];
+        const int32_t *v = j->tet + 4 * t;
+        const double *a = j->vertex + 3 * (size_t)v[0];
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++)
+                e[i][k] = j->scale * (j->vertex[3 * (size_t)v[i + 1] + (size_t)k] - a[k]);
+        tc_vec_sub(e[3], e[1], e[0]);
+        tc_vec_sub(e[4], e[2], e[0]);
+        tc_vec_sub(e[5], e[2], e[1]);
+        for (int i = 0; i < 6; i++) {
+            double square = tc_vec_dot(e[i], e[i]);
+            longest = square > longest && isfinite(square) ? square : longest;
         }
-        tc_vec_sub(u, p[1], p[0]);
-        tc_vec_sub(v, p[2], p[0]);
-        tc_vec_sub(w, p[3], p[0]);
-        tc_vec_cross(c, u, v);
-        double six = fabs(tc_vec_dot(c, w));
-        volume += isfinite(six) ? six / 6 : 0;
+        tc_vec_cross(c, e[0], e[1]);
+        double six = fabs(tc_vec_dot(c, e[2]));
+        volume += isfinite(six) ? six : 0;
     }
     j->part[begin / CHUNK][0] = longest;
     j->part[begin / CHUNK][1] = volume;
 }
 
-void tc_mesh_measure(tc_mesh *m, int threads)
+static void measure_bounds(tc_mesh *m)
 {
-    tc_mesh_report *r = &m->report;
+    double *b = m->report.bounds;
     bool any = false;
     for (int k = 0; k < 6; k++)
-        r->bounds[k] = 0;
-    for (size_t v = 0; v < m->n_vertex - r->n_steiner; v++) {
+        b[k] = 0;
+    for (size_t v = 0; v < m->n_vertex - m->report.n_steiner; v++) {
         const double *p = m->vertex + 3 * v;
         if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]))
             continue;
         for (int k = 0; k < 3; k++) {
-            r->bounds[2 * k] = any && r->bounds[2 * k] < p[k] ? r->bounds[2 * k] : p[k];
-            r->bounds[2 * k + 1] = any && r->bounds[2 * k + 1] > p[k] ? r->bounds[2 * k + 1] : p[k];
+            b[2 * k] = any && b[2 * k] < p[k] ? b[2 * k] : p[k];
+            b[2 * k + 1] = any && b[2 * k + 1] > p[k] ? b[2 * k + 1] : p[k];
         }
         any = true;
     }
+}
+
+tc_status tc_mesh_measure(tc_mesh *m, int threads, tc_error *err)
+{
+    tc_mesh_report *r = &m->report;
+    measure_bounds(m);
+    double extent = 0;
+    int exponent = 0;
+    for (int k = 0; k < 3; k++) {
+        double e = r->bounds[2 * k + 1] - r->bounds[2 * k];
+        extent = e > extent ? e : extent;
+    }
+    if (extent > 0 && isfinite(extent))
+        frexp(extent, &exponent);
     size_t n_part = (m->n_tet + CHUNK - 1) / CHUNK;
-    sums j = {.vertex = m->vertex, .tet = m->tet, .part = tc_calloc(n_part, sizeof *j.part)};
-    r->longest_edge = r->volume = 0;
-    double one[2], (*own)[2] = j.part;
-    if (own) {
-        tc_parallel_for(m->n_tet, CHUNK, threads, measure_range, &j);
-    }
+    sums j = {.vertex = m->vertex, .tet = m->tet, .scale = ldexp(1, -exponent)};
+    if (!isfinite(j.scale)) /* smaller than any normal number */
+        j.scale = 1, exponent = 0;
+    j.part = tc_alloc(n_part, sizeof *j.part);
+    if (!j.part)
+        return tc_fail_memory(err, "measuring the mesh", n_part, sizeof *j.part);
+    tc_parallel_for(m->n_tet, CHUNK, threads, measure_range, &j);
+    double longest = 0, volume = 0;
     for (size_t i = 0; i < n_part; i++) {
-        const double *part = own ? own[i] : one;
-        if (!own) { /* no memory for the parts: one after another */
-            sums k = {.vertex = m->vertex, .tet = m->tet + 4 * i * CHUNK, .part = &one};
-            size_t left = m->n_tet - i * CHUNK;
-            measure_range(&k, 0, left < CHUNK ? left : CHUNK, 0);
-        }
-        r->longest_edge = part[0] > r->longest_edge ? part[0] : r->longest_edge;
-        r->volume += part[1];
+        longest = j.part[i][0] > longest ? j.part[i][0] : longest;
+        volume += j.part[i][1];
     }
-    free(own);
+    r->longest_edge = ldexp(sqrt(longest), exponent);
+    r->volume = ldexp(volume / 6, 3 * exponent);
+    free(j.part);
+    return TC_OK;
 }

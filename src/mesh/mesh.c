@@ -73,7 +73,11 @@ tc_status tc_mesh_create(tc_mesh **out, const tc_mesh_arrays *arrays, tc_error *
     m->scalar_serial = tc_mesh_new_serial();
     m->report.n_vertex = m->n_vertex;
     m->report.n_tet = m->report.source_cells = m->n_tet;
-    tc_mesh_measure(m, 1);
+    status = tc_mesh_measure(m, 1, err);
+    if (status != TC_OK) {
+        tc_mesh_destroy(&m);
+        return status;
+    }
     tc_mesh_measure_scalar(m);
     *out = m;
     return TC_OK;

@@ -39,8 +39,8 @@ struct tc_mesh {
 /* Sets the report's scalar_range and nonfinite_scalars from the values; both ends are 0 when none is finite. */
 void tc_mesh_measure_scalar(tc_mesh *mesh);
 /* Sets the report's bounds (of finite vertices), longest_edge and volume from the real tets; an edge or volume that
- * is not finite is left out. The sums do not depend on the number of threads. */
-void tc_mesh_measure(tc_mesh *mesh, int threads);
+ * is not finite is left out. The sums do not depend on the number of threads. Errors: TC_E_MEMORY. */
+tc_status tc_mesh_measure(tc_mesh *mesh, int threads, tc_error *err);
 /* A number that no other call of this process gives: for serial and scalar_serial. */
 uint64_t tc_mesh_new_serial(void);
 

@@ -64,6 +64,8 @@ static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const
     tc_mesh_report *r = &next.report;
     if (status == TC_OK)
         status = tc_adjacency_components(&r->n_component, next.neighbour, next.n_tet, err);
+    if (status == TC_OK)
+        status = tc_mesh_measure(&next, o->threads, err);
     if (status != TC_OK) {
         tc_mesh_finish_arrays(&next);
         return status;
@@ -71,7 +73,6 @@ static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const
     r->n_vertex = next.n_vertex, r->n_tet = next.n_tet;
     for (size_t i = 0; i < 4 * next.n_tet; i++)
         r->n_boundary_face += next.neighbour[i] < 0;
-    tc_mesh_measure(&next, o->threads);
     tc_mesh_measure_scalar(&next);
     r->reentry = TC_REENTRY_PEEL;
     r->ms_check = t1 - t0 + tc_now_ms() - t3;
