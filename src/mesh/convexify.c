@@ -230,7 +230,7 @@ tc_status tc_mesh_convexify(tc_mesh *m, const tc_boundary *b, double limit_s, in
                             tc_error *err)
 {
     if (m->report.unlinked_faces > 0)
-        return tc_fail(err, TC_E_MESH, "%zu faces belong to three cells or lie between two cells on one side",
+        return tc_fail(err, TC_E_MESH, "some faces belong to three cells or lie between two cells on one side (%zu)",
                        m->report.unlinked_faces);
     filling q = {0};
     tc_mesh next = {0};
