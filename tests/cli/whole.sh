@@ -6,8 +6,10 @@ mkdir room
 
 run 1 render $ball -o missing/a.png
 says "missing"
-run 1 render $ball -o room
-[ -z "$(ls -A room)" ] || fail "something was written into the folder"
+mkdir folder.png
+run 1 render $ball -o folder.png
+says "folder.png is a folder"
+[ -z "$(ls -A folder.png)" ] || fail "something was written into the folder"
 run 2 render $ball -o room/
 run 1 render $ball -o room/a.png --stats missing/s.json
 absent room/a.png

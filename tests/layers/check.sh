@@ -56,7 +56,7 @@ length_check() {
 }
 
 apart() {
-    sources | grep -v -e '^src/.*/helper/' -e '^readers/.*\.cpp$' | sort | xargs awk '
+    sources | grep -v -e '^src/.*/helper/' -e '^readers/.*\.cpp$' -e '^readers/.*\.h$' | sort | xargs awk '
     /^[ \t]*#[ \t]*include[ \t]*[<"](vtk|tetgen|OpenImageIO)/ {
         print FILENAME ": includes a library that belongs into a helper program: " $0
     }'
