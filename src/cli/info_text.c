@@ -82,9 +82,9 @@ static void tc_source_print(const tc_source *source)
     if (source->n_time) {
         printf("steps       %zu: ", source->n_time);
         for (size_t i = 0; i < source->n_time && i < TC_TIMES_SHOWN - 1; i++)
-            printf("%g ", source->time[i]);
+            printf("%s%g", i ? " " : "", source->time[i]);
         if (source->n_time >= TC_TIMES_SHOWN)
-            printf("%s%g", source->n_time > TC_TIMES_SHOWN ? "… " : "", source->time[source->n_time - 1]);
+            printf("%s %g", source->n_time > TC_TIMES_SHOWN ? " …" : "", source->time[source->n_time - 1]);
         printf("; this is step %d\n", source->step);
     }
 }
