@@ -159,38 +159,98 @@ static bool fits(const int32_t *tet, size_t t, int f, size_t u)
     return face_key(key, tet + 4 * t, f) != face_key(key, tet + 4 * u, face_of(tet, t, f, u));
 }
 
-/* Zero-volume tets have no orientation of their own: turn each the way that fits most of its neighbours. Every turn
- * makes more faces fit, so this ends. */
+/* The zero-volume tets from in->first on. */
+typedef struct flats {
+    uint32_t *tet, *queue; /* [n] each */
+    uint8_t *open;         /* [n_tet]: zero volume, and its orientation is not chosen yet */
+    size_t n;
+} flats;
+
+/* Neighbours that the orientation of tet t fits, less those that it does not; only those with open[u] == 0 count. */
+static int balance_of(const int32_t *tet, const int32_t *neighbour, const uint8_t *open, size_t t)
+{
+    int balance = 0;
+    for (int f = 0; f < 4; f++) {
+        int32_t u = neighbour[4 * t + (size_t)f];
+        if (u >= 0 && !open[u])
+            balance += fits(tet, t, f, (size_t)u) ? 1 : -1;
+    }
+    return balance;
+}
+
+static bool turn_if_better(int32_t *tet, int32_t *neighbour, const uint8_t *open, size_t t)
+{
+    if (balance_of(tet, neighbour, open, t) >= 0)
+        return false;
+    int32_t *v = tet + 4 * t, *w = neighbour + 4 * t, k;
+    k = v[2], v[2] = v[3], v[3] = k;
+    k = w[2], w[2] = w[3], w[3] = k;
+    return true;
+}
+
+/* Chooses orientations outwards from the tets that have one; a cluster without such neighbours starts anywhere. */
+static size_t spread_orientation(const tc_adjacency_input *in, int32_t *neighbour, flats *s)
+{
+    size_t turned = 0, head = 0, tail = 0;
+    for (size_t i = 0; i < s->n; i++) { /* beside one that is fixed: first in the queue */
+        bool beside = false;
+        for (size_t f = 0; f < 4; f++) {
+            int32_t u = neighbour[4 * (size_t)s->tet[i] + f];
+            beside = beside || (u >= 0 && !s->open[u]);
+        }
+        if (beside)
+            s->queue[tail++] = s->tet[i];
+    }
+    for (size_t i = 0; i < tail; i++)
+        s->open[s->queue[i]] = 2; /* queued */
+    for (size_t seed = 0;;) {
+        for (; head < tail; head++) {
+            size_t t = s->queue[head];
+            turned += turn_if_better(in->tet, neighbour, s->open, t);
+            s->open[t] = 0;
+            for (size_t f = 0; f < 4; f++) {
+                int32_t u = neighbour[4 * t + f];
+                if (u >= 0 && s->open[u] == 1)
+                    s->open[u] = 2, s->queue[tail++] = (uint32_t)u;
+            }
+        }
+        while (seed < s->n && s->open[s->tet[seed]] != 1)
+            seed++;
+        if (seed == s->n)
+            return turned;
+        s->open[s->tet[seed]] = 2;
+        s->queue[tail++] = s->tet[seed];
+    }
+}
+
+/* Zero-volume tets have no orientation of their own: turn each the way that fits its neighbours. */
 static tc_status turn_flat(const tc_adjacency_input *in, int32_t *neighbour, size_t *turned, tc_error *err)
 {
-    size_t n = 0;
-    uint32_t *flat = tc_alloc(in->n_zero_volume, sizeof *flat);
-    if (!flat)
-        return tc_fail_memory(err, "the list of zero-volume cells", in->n_zero_volume, sizeof *flat);
-    for (size_t t = in->first; t < in->n_tet && n < in->n_zero_volume; t++) {
+    flats s = {.tet = tc_alloc(in->n_zero_volume, sizeof *s.tet),
+               .queue = tc_alloc(in->n_zero_volume, sizeof *s.queue),
+               .open = tc_calloc(in->n_tet, 1)};
+    if (!s.tet || !s.queue || !s.open) {
+        free(s.tet);
+        free(s.queue);
+        free(s.open);
+        return tc_fail_memory(err, "the list of zero-volume cells", in->n_zero_volume * 8 + in->n_tet, 1);
+    }
+    for (size_t t = in->first; t < in->n_tet && s.n < in->n_zero_volume; t++) {
         const int32_t *v = in->tet + 4 * t;
         const double *x = in->vertex;
         if (tc_orient3d(x + 3 * (size_t)v[0], x + 3 * (size_t)v[1], x + 3 * (size_t)v[2], x + 3 * (size_t)v[3]) == 0)
-            flat[n++] = (uint32_t)t;
+            s.tet[s.n++] = (uint32_t)t, s.open[t] = 1;
     }
-    for (bool again = true; again;) {
+    *turned = spread_orientation(in, neighbour, &s);
+    for (bool again = true; again;) { /* every turn makes more faces fit, so this ends */
         again = false;
-        for (size_t i = 0; i < n; i++) {
-            size_t t = flat[i];
-            int balance = 0;
-            for (int f = 0; f < 4; f++)
-                if (neighbour[4 * t + (size_t)f] >= 0)
-                    balance += fits(in->tet, t, f, (size_t)neighbour[4 * t + (size_t)f]) ? 1 : -1;
-            if (balance < 0) {
-                int32_t *v = in->tet + 4 * t, *w = neighbour + 4 * t, k;
-                k = v[2], v[2] = v[3], v[3] = k;
-                k = w[2], w[2] = w[3], w[3] = k;
-                again = true;
-                ++*turned;
-            }
-        }
+        for (size_t i = 0; i < s.n; i++)
+            if (turn_if_better(in->tet, neighbour, s.open, s.tet[i]))
+                again = true, ++*turned;
     }
-    free(flat);
+    free(s.tet);
+    free(s.queue);
+    free(s.open);
     return TC_OK;
 }
 

@@ -6,10 +6,23 @@
 #include "mesh/convexify.h"
 #include "mesh/mesh.h"
 #include "mesh/order.h"
+#include "mesh/predicate.h"
 #include "mesh/repair.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+
+/* Takes the zero-volume tets that will be dropped out of the count. */
+static void forget_flat(tc_mesh *m, const uint8_t *drop)
+{
+    const double *x = m->vertex;
+    for (size_t t = 0; t < m->n_tet && m->report.zero_volume > 0; t++) {
+        const int32_t *v = m->tet + 4 * t;
+        if (drop[t] &&
+            tc_orient3d(x + 3 * (size_t)v[0], x + 3 * (size_t)v[1], x + 3 * (size_t)v[2], x + 3 * (size_t)v[3]) == 0)
+            m->report.zero_volume--;
+    }
+}
 
 /* Links the repaired, ordered mesh; equal tets are found on the way and all but one of each dropped. */
 static tc_status link_mesh(tc_mesh *m, int threads, tc_error *err)
@@ -35,6 +48,7 @@ static tc_status link_mesh(tc_mesh *m, int threads, tc_error *err)
             break;
         if (found.duplicates > 0) {
             r->dropped_duplicate += found.duplicates;
+            forget_flat(m, duplicate);
             tc_mesh_drop_tets(m, duplicate);
         }
     } while (found.duplicates > 0);

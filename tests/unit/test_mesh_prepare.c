@@ -307,6 +307,44 @@ static void a_flat_cell_stays_and_links_its_neighbours(void **state)
     }
 }
 
+/* A stack of flat cells between two cubes: each sees mostly other flat ones, and all have to turn together. */
+static void a_stack_of_flat_cells_is_linked_through(void **state)
+{
+    (void)state;
+    for (int start = 0; start < 32; start++) {
+        shape s = {0};
+        int32_t p[4] = {shape_vertex(&s, 0, 0, 0), shape_vertex(&s, 1, 0, 0), shape_vertex(&s, 1, 1, 0),
+                        shape_vertex(&s, 0, 1, 0)};
+        int32_t top = shape_vertex(&s, 0.5, 0.5, 1), low = shape_vertex(&s, 0.5, 0.5, -1);
+        shape_tet(&s, p[0], p[1], p[2], top);
+        shape_tet(&s, p[0], p[2], p[3], top);
+        /* the square's first corner climbs twice on the spot: points of one place, kept apart by their values */
+        int32_t e = shape_vertex(&s, 0, 0, 0), f = shape_vertex(&s, 0, 0, 0);
+        int32_t layer[4][4] = {{p[0], p[1], p[2], e}, {p[0], p[2], p[3], e}, {e, p[1], p[2], f}, {e, p[2], p[3], f}};
+        for (int i = 0; i < 4; i++) {
+            int32_t *v = layer[i];
+            if (start >> i & 1)
+                shape_tet(&s, v[0], v[1], v[2], v[3]);
+            else
+                shape_tet(&s, v[1], v[0], v[2], v[3]);
+        }
+        if (start >> 4 & 1)
+            shape_tet(&s, f, p[1], p[2], p[3]);
+        else
+            shape_tet(&s, p[1], f, p[2], p[3]);
+        shape_tet(&s, f, p[1], p[3], low);
+        shape_tet(&s, p[1], p[2], p[3], low);
+        double scalar[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+        tc_mesh *m = shape_mesh(&s, scalar, TC_POINT_DATA);
+        tc_mesh_report r = shape_prepare(m, TC_REENTRY_PEEL);
+        shape_check_promises(m);
+        assert_int_equal(r.zero_volume, 5);
+        assert_int_equal(r.unlinked_faces, 0);
+        assert_int_equal(r.n_component, 1);
+        end(&m, &s);
+    }
+}
+
 /* A coarse cube beside four fine ones: their common side does not conform. */
 static void hanging_nodes_leave_faces_open(void **state)
 {
@@ -545,6 +583,7 @@ int main(void)
         cmocka_unit_test(a_face_of_three_cells_is_unlinked),
         cmocka_unit_test(two_cells_on_one_side_of_a_face_are_unlinked),
         cmocka_unit_test(a_flat_cell_stays_and_links_its_neighbours),
+        cmocka_unit_test(a_stack_of_flat_cells_is_linked_through),
         cmocka_unit_test(hanging_nodes_leave_faces_open),
         cmocka_unit_test(a_fan_of_many_cells_around_one_vertex_is_linked),
         cmocka_unit_test(one_missing_corner_is_not_convex),
