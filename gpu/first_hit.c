@@ -1,9 +1,23 @@
-/* first_hit.c: draws the boundary faces to find each ray's entry. */
+/* first_hit.c: draws the proposed boundary faces to find each ray's entry. */
 #include "gpu/first_hit.h"
 
 #include "gpu/pass.h"
 
-enum { VERTICES_PER_FACE = 21, FACES_PER_DRAW = 1 << 22 };
+#include <stddef.h>
+
+/* Proposals → vertex buffer; once a frame. */
+static void upload_proposals(const tc_job *job)
+{
+    const tc_gl *gl = job->gl;
+    gl->BindBuffer(GL_ARRAY_BUFFER, job->hit_buffer);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(job->proposals->n * sizeof(tc_proposal)), job->proposals->corner,
+                   GL_STREAM_DRAW);
+    gl->VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(tc_proposal), NULL);
+    gl->VertexAttribIPointer(1, 1, GL_INT, sizeof(tc_proposal), (const void *)offsetof(tc_proposal, face));
+    gl->EnableVertexAttribArray(0);
+    gl->EnableVertexAttribArray(1);
+    gl->BindBuffer(GL_ARRAY_BUFFER, 0);
+}
 
 tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
 {
@@ -30,18 +44,18 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
     gl->ClearBufferiv(GL_COLOR, 0, nowhere);
     gl->ClearBufferfv(GL_COLOR, 1, zero);
     if (job->peel) {
-        /* A ray without a further entry keeps no key and would begin again: it is out by its missing cell, and no later
-         * layer may revive it. */
+        /* A ray without a further entry is out: no later layer may revive it. */
         const GLint last_key[4] = {0x7fffffff, 0x7fffffff, 0, 0};
         gl->ClearBufferiv(GL_COLOR, 2, last_key);
     }
     gl->ClearBufferfv(GL_DEPTH, 0, &far_depth);
 
     gl->UseProgram(program);
+    gl->BindVertexArray(job->hit_array);
+    if (layer == 0)
+        upload_proposals(job);
     tc_job_bind_mesh(job, program);
     tc_pass_texture(gl, program, "faces", 3, GL_TEXTURE_BUFFER, job->mesh->faces.texture);
-    tc_pass_vec2(gl, program, "viewport", s->width, s->height);
-    gl->UniformMatrix4fv(gl->GetUniformLocation(program, "clip"), 1, GL_FALSE, job->frame->clip);
     if (job->peel) {
         tc_pass_texture(gl, program, "peel_key", 4, GL_TEXTURE_2D, s->key[1 - next]);
         tc_pass_texture(gl, program, "state_color", 5, GL_TEXTURE_2D, s->set[0].color);
@@ -49,12 +63,9 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
     }
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_LESS);
-    for (size_t first = 0; first < job->mesh->n_face; first += FACES_PER_DRAW) {
-        size_t n = job->mesh->n_face - first;
-        if (n > FACES_PER_DRAW)
-            n = FACES_PER_DRAW;
-        gl->DrawArrays(GL_TRIANGLES, (GLint)(first * VERTICES_PER_FACE), (GLsizei)(n * VERTICES_PER_FACE));
-    }
+    if (job->proposals->n > 0)
+        gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)job->proposals->n);
     gl->DepthMask(GL_FALSE);
+    gl->BindVertexArray(job->screen_array);
     return tc_gl_check(gl, "finding the first hits", err);
 }

@@ -4,6 +4,7 @@
 
 #include "gpu/frame.h"
 #include "gpu/program.h"
+#include "gpu/propose.h"
 #include "gpu/state.h"
 #include "gpu/upload.h"
 
@@ -14,6 +15,9 @@ typedef struct tc_job {
     const tc_gpu_mesh *mesh;
     const tc_gpu_transfer *transfer;
     const tc_frame *frame;
+    const tc_proposals *proposals; /* of this frame */
+    GLuint hit_array, hit_buffer;  /* vertex array and buffer for them */
+    GLuint screen_array;           /* an empty vertex array */
     const tc_log *log;
 
     tc_integrator integrator; /* TABLE or INTEGRAL */

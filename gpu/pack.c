@@ -77,8 +77,10 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err)
     out->cell = tc_alloc(n, TC_PACK_CELL_INTS * sizeof *out->cell);
     out->vertex = tc_alloc(mesh->n_vertex, TC_PACK_VERTEX_FLOATS * sizeof *out->vertex);
     out->face = tc_alloc(faces, TC_PACK_FACE_INTS * sizeof *out->face);
+    out->face_corner = tc_alloc(faces, 9 * sizeof *out->face_corner);
     out->cell_scalar = cell_data ? tc_alloc(mesh->n_tet, sizeof *out->cell_scalar) : NULL;
-    if (!out->cell || !out->vertex || !out->face || (cell_data && !out->cell_scalar)) {
+    if (!out->cell || !out->vertex || !out->face || !out->face_corner ||
+        (cell_data && !out->cell_scalar)) {
         tc_pack_finish(out);
         return tc_fail_memory(err, "the packed mesh", n, 24);
     }
@@ -87,13 +89,17 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err)
     out->scalar_hi = mesh->report.scalar_range[1];
     pack_vertices(out, mesh);
     int32_t *face = out->face;
+    float *corner = out->face_corner;
     for (size_t i = 0; i < n; i++) {
         const int32_t *tet = mesh->tet + 4 * i, *neighbour = mesh->neighbour + 4 * i;
         pack_cell(out->cell + TC_PACK_CELL_INTS * i, tet, neighbour);
         for (int f = 0; f < 4; f++)
             if (neighbour[f] < 0) {
-                for (int k = 0; k < 3; k++)
+                for (int k = 0; k < 3; k++) {
                     face[k] = tet[face_corner[f][k]];
+                    memcpy(corner + 3 * k, out->vertex + 4 * (size_t)face[k], 3 * sizeof *corner);
+                }
+                corner += 9;
                 face[3] = (int32_t)i;
                 face += TC_PACK_FACE_INTS;
             }
@@ -109,6 +115,7 @@ void tc_pack_finish(tc_pack *pack)
     free(pack->cell);
     free(pack->vertex);
     free(pack->face);
+    free(pack->face_corner);
     free(pack->cell_scalar);
     memset(pack, 0, sizeof *pack);
 }

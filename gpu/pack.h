@@ -11,12 +11,14 @@ enum { TC_PACK_CELL_INTS = 5, TC_PACK_VERTEX_FLOATS = 4, TC_PACK_FACE_INTS = 4 }
  *   cell   [n_cell][5]   XOR of the four vertex ids, then the four neighbours in the order of the sorted vertex ids
  *   vertex [n_vertex][4] x, y, z, scalar (0 with cell data and where a value is not finite)
  *   face   [n_face][4]   boundary faces: three ids counter-clockwise from outside, and the cell behind
+ *   face_corner [n_face][3][3] where those three are: stays on the CPU (propose.h)
  *   cell_scalar [n_tet]  with cell data only, else NULL */
 typedef struct tc_pack {
     size_t n_cell, n_real, n_vertex, n_face;
     int32_t *cell;
     float *vertex;
     int32_t *face;
+    float *face_corner;
     float *cell_scalar;
     double center[3], scale; /* mesh space = (world - center) * scale */
     double scalar_lo, scalar_hi;

@@ -17,15 +17,18 @@ enum { AUTO_STEPS = 32, AUTO_Z_PAPER = 14 };
 struct tc_gpu_renderer {
     tc_context *context;
     tc_program_cache *programs;
-    GLuint vertex_array;
+    GLuint vertex_array[2]; /* empty; first hits */
+    GLuint hit_buffer;
     int threads;
 
     uint64_t mesh_serial, scalar_serial; /* of what is uploaded; 0: nothing */
     tc_gpu_mesh mesh;
+    float *face_corner; /* kept from the pack for proposing first hits */
     double center[3], scale, scalar_lo, scalar_hi, ms_pack;
 
     tc_transfer_gpu transfer;
     tc_state state;
+    tc_proposals proposals;
     int64_t *fragments;
 };
 
@@ -41,8 +44,10 @@ tc_status tc_gpu_renderer_create(tc_gpu_renderer **out, const char *name, tc_get
                                 : tc_context_create(&r->context, name, log, err);
     if (status == TC_OK)
         status = tc_program_cache_create(&r->programs, &r->context->gl, err);
-    if (status == TC_OK)
-        r->context->gl.GenVertexArrays(1, &r->vertex_array);
+    if (status == TC_OK) {
+        r->context->gl.GenVertexArrays(2, r->vertex_array);
+        r->context->gl.GenBuffers(1, &r->hit_buffer);
+    }
     if (status != TC_OK) {
         tc_gpu_renderer_destroy(&r);
         return status;
@@ -62,9 +67,12 @@ void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer)
         tc_transfer_gpu_finish(&r->transfer, gl);
         tc_state_finish(&r->state, gl);
         tc_program_cache_destroy(&r->programs);
-        gl->DeleteVertexArrays(1, &r->vertex_array);
+        gl->DeleteVertexArrays(2, r->vertex_array);
+        gl->DeleteBuffers(1, &r->hit_buffer);
     }
     tc_context_destroy(&r->context);
+    tc_proposals_finish(&r->proposals);
+    free(r->face_corner);
     free(r->fragments);
     free(r);
     *renderer = NULL;
@@ -94,6 +102,9 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, tc_render_
         r->scalar_hi = pack.scalar_hi;
         r->mesh_serial = mesh->serial;
         r->scalar_serial = mesh->scalar_serial;
+        free(r->face_corner);
+        r->face_corner = pack.face_corner;
+        pack.face_corner = NULL;
         stats->ms_pack = pack.ms;
         stats->ms_upload = r->mesh.ms;
     }
@@ -195,7 +206,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     const tc_render_options *options = frame->options;
     bool peel = mesh->report.reentry == TC_REENTRY_PEEL;
     double compile_before = tc_program_cache_ms(r->programs);
-    gl->BindVertexArray(r->vertex_array);
+    gl->BindVertexArray(r->vertex_array[0]);
     gl->Disable(GL_BLEND);
     gl->Disable(GL_SCISSOR_TEST);
     gl->Disable(GL_CULL_FACE);
@@ -231,9 +242,20 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.count = options->count;
     choose_passes(&job, options);
 
+    job.proposals = &r->proposals;
+    job.screen_array = r->vertex_array[0];
+    job.hit_array = r->vertex_array[1];
+    job.hit_buffer = r->hit_buffer;
+
     double start = tc_now_ms();
-    tc_job_result result;
-    status = tc_pingpong_frame(&result, &job, err);
+    tc_job_result result = {0};
+    r->proposals.n = 0;
+    if (!rays.behind)
+        status = tc_propose(&r->proposals, &rays, options->width, options->height, r->face_corner, r->mesh.n_face, err);
+    double ms_propose = tc_now_ms() - start;
+    if (status == TC_OK)
+        status = tc_pingpong_frame(&result, &job, err);
+    result.ms_first_hit += ms_propose;
     if (status == TC_OK)
         status = resolve(r, &job, err);
     stats->ms_frame = tc_now_ms() - start;

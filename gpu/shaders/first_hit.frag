@@ -4,8 +4,8 @@
 #include "stepper.glsl"
 #include "state.glsl"
 
-flat in ivec4 face;
 flat in int face_id;
+uniform isamplerBuffer faces; // a, b, c counter-clockwise from outside, and the cell behind
 
 #ifdef PEEL
 uniform isampler2D peel_key;   // bits of the depth, and 1 + the face id, of the previous entry
@@ -19,6 +19,7 @@ layout(location = 1) out vec2 out_at;
 void main()
 {
     Ray ray = ray_of_pixel(gl_FragCoord.xy);
+    ivec4 face = texelFetch(faces, face_id);
     Walk w;
     int facing;
     if (!walk_face(w, ray, face.w, face.xyz, facing) || facing < 0)

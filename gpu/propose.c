@@ -1,0 +1,184 @@
+/* propose.c: boundary faces as enlarged screen polygons.
+ *
+ * A triangle with no sharp corner is enlarged by moving its edges out by a margin (three corners still); a small one
+ * becomes the rectangle around it; a long thin one its triangle and a quad about each edge, since moved edges would meet
+ * far away. The set of proposed pixels is always larger than that of the rays through the face. */
+#include "gpu/propose.h"
+
+#include "core/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CORNERS = 21 }; /* that one face may need */
+static const float MARGIN = 0.0625f;   /* pixels: how far a face is enlarged beside its rounding error */
+static const float ROUNDING = 1e-6f;   /* of clip coordinates, relative to their terms */
+static const float SMALL = 6.0f;       /* pixels: a face this small becomes a rectangle when it has a sharp corner */
+static const float MITRE_SIN = 0.3f;   /* sine of the sharpest corner whose edges are moved */
+static const float W_MIN = 1e-4f;      /* of the largest w: nearer to the eye's plane a place on the screen has no meaning */
+
+typedef struct point {
+    float x, y;
+} point;
+
+typedef struct screen {
+    float width, height;
+    const float *clip;
+    float rounding; /* pixels at w = 1 */
+    float margin;   /* pixels, of the face at hand */
+} screen;
+
+static void add(tc_proposals *out, const screen *s, int32_t face, float x, float y)
+{
+    out->corner[out->n++] = (tc_proposal){x / s->width * 2 - 1, y / s->height * 2 - 1, face};
+}
+
+static void add_triangle(tc_proposals *out, const screen *s, int32_t face, point a, point b, point c)
+{
+    add(out, s, face, a.x, a.y);
+    add(out, s, face, b.x, b.y);
+    add(out, s, face, c.x, c.y);
+}
+
+static void add_quad(tc_proposals *out, const screen *s, int32_t face, point a, point b, point c, point d)
+{
+    add_triangle(out, s, face, a, b, c);
+    add_triangle(out, s, face, a, c, d);
+}
+
+static void add_screen(tc_proposals *out, const screen *s, int32_t face)
+{
+    add_triangle(out, s, face, (point){0, 0}, (point){2 * s->width, 0}, (point){0, 2 * s->height});
+}
+
+/* p, q moved out by the margin to the right of p→q: the line's unit normal and direction. */
+static void add_edge(tc_proposals *out, const screen *s, int32_t face, point p, point q)
+{
+    float x = q.x - p.x, y = q.y - p.y, l = sqrtf(x * x + y * y);
+    x = l > 0 ? s->margin * x / l : s->margin;
+    y = l > 0 ? s->margin * y / l : 0;
+    add_quad(out, s, face, (point){p.x - x + y, p.y - y - x}, (point){q.x + x + y, q.y + y - x},
+             (point){q.x + x - y, q.y + y + x}, (point){p.x - x - y, p.y - y + x});
+}
+
+static float cross(point a, point b)
+{
+    return a.x * b.y - a.y * b.x;
+}
+
+static point minus(point a, point b)
+{
+    return (point){a.x - b.x, a.y - b.y};
+}
+
+static float length_of(point a)
+{
+    return sqrtf(a.x * a.x + a.y * a.y);
+}
+
+/* Corner p between the edges from `before` and to `after` (unit vectors, counter-clockwise), both moved out by the margin. */
+static point mitre(const screen *s, point p, point before, point after)
+{
+    float sine = cross(before, after); /* > MITRE_SIN */
+    float k = s->margin / sine;
+    return (point){p.x + k * (before.x - after.x), p.y + k * (before.y - after.y)};
+}
+
+static void propose_face(tc_proposals *out, const screen *s, int32_t face, const point p[3])
+{
+    point e[3];
+    float l[3], longest = 0;
+    for (int i = 0; i < 3; i++) {
+        e[i] = minus(p[(i + 1) % 3], p[i]);
+        l[i] = length_of(e[i]);
+        longest = fmaxf(longest, l[i]);
+    }
+    float area = cross(e[0], minus(p[2], p[0]));
+    if (area < -(1 + s->margin) * (1 + 0.02f * longest))
+        return; /* clearly looks away */
+    float lo_x = fminf(p[0].x, fminf(p[1].x, p[2].x)) - s->margin, hi_x = fmaxf(p[0].x, fmaxf(p[1].x, p[2].x)) + s->margin;
+    float lo_y = fminf(p[0].y, fminf(p[1].y, p[2].y)) - s->margin, hi_y = fmaxf(p[0].y, fmaxf(p[1].y, p[2].y)) + s->margin;
+    if (hi_x < 0 || hi_y < 0 || lo_x > s->width || lo_y > s->height)
+        return;
+    bool blunt = area > 0;
+    for (int i = 0; i < 3 && blunt; i++) {
+        int j = (i + 1) % 3;
+        blunt = l[i] > 0 && l[j] > 0 && cross(e[i], e[j]) > MITRE_SIN * l[i] * l[j];
+    }
+    if (blunt) {
+        point u[3];
+        for (int i = 0; i < 3; i++)
+            u[i] = (point){e[i].x / l[i], e[i].y / l[i]};
+        add_triangle(out, s, face, mitre(s, p[0], u[2], u[0]), mitre(s, p[1], u[0], u[1]), mitre(s, p[2], u[1], u[2]));
+    } else if (hi_x - lo_x < SMALL || hi_y - lo_y < SMALL) {
+        add_quad(out, s, face, (point){lo_x, lo_y}, (point){hi_x, lo_y}, (point){hi_x, hi_y}, (point){lo_x, hi_y});
+    } else {
+        add_triangle(out, s, face, p[0], p[1], p[2]);
+        for (int i = 0; i < 3; i++)
+            add_edge(out, s, face, p[i], p[(i + 1) % 3]);
+    }
+}
+
+/* Screen place of a vertex; gives w. */
+static float project(point *out, const screen *s, const float *vertex)
+{
+    const float *m = s->clip;
+    float x = m[0] * vertex[0] + m[4] * vertex[1] + m[8] * vertex[2] + m[12];
+    float y = m[1] * vertex[0] + m[5] * vertex[1] + m[9] * vertex[2] + m[13];
+    float w = m[3] * vertex[0] + m[7] * vertex[1] + m[11] * vertex[2] + m[15];
+    out->x = (x / w * 0.5f + 0.5f) * s->width;
+    out->y = (y / w * 0.5f + 0.5f) * s->height;
+    return w;
+}
+
+/* Rounding error of a place on the screen, in pixels, where w = 1. */
+static float clip_rounding(const screen *s)
+{
+    float terms[2] = {0, 0};
+    for (int k = 0; k < 4; k++)
+        for (int row = 0; row < 2; row++)
+            terms[row] += fabsf(s->clip[4 * k + row]);
+    return ROUNDING * 0.5f * fmaxf(terms[0] * s->width, terms[1] * s->height);
+}
+
+tc_status tc_propose(tc_proposals *out, const tc_frame *frame, int width, int height, const float *corner, size_t n_face,
+                     tc_error *err)
+{
+    screen s = {.width = (float)width, .height = (float)height, .clip = frame->clip};
+    s.rounding = clip_rounding(&s);
+    out->n = 0;
+    for (size_t i = 0; i < n_face; i++) {
+        if (out->n + MOST_CORNERS > out->capacity) {
+            size_t capacity = 2 * (out->n + MOST_CORNERS) + 3 * (n_face - i);
+            tc_proposal *grown = tc_realloc(out->corner, capacity, sizeof *grown);
+            if (!grown)
+                return tc_fail_memory(err, "the proposed first hits", capacity, sizeof *grown);
+            out->corner = grown;
+            out->capacity = capacity;
+        }
+        point p[3];
+        float nearest = INFINITY, farthest = -INFINITY;
+        for (int k = 0; k < 3; k++) {
+            float w = project(&p[k], &s, corner + 9 * i + 3 * (size_t)k);
+            nearest = fminf(nearest, w);
+            farthest = fmaxf(farthest, w);
+        }
+        s.margin = MARGIN + s.rounding / fmaxf(fabsf(nearest), W_MIN);
+        if (nearest > W_MIN) {
+            propose_face(out, &s, (int32_t)i, p);
+        } else if (farthest > -W_MIN) {
+            add_screen(out, &s, (int32_t)i); /* crosses the eye's plane: it may be anywhere */
+        } else if (frame->eye_inside) {
+            /* Behind the eye the ray's line goes on: the face is seen through the eye, turned by half a turn. */
+            propose_face(out, &s, (int32_t)i, p);
+        }
+    }
+    return TC_OK;
+}
+
+void tc_proposals_finish(tc_proposals *proposals)
+{
+    free(proposals->corner);
+    memset(proposals, 0, sizeof *proposals);
+}
