@@ -6,12 +6,12 @@
 
 typedef struct tc_boundary {
     size_t n_face, n_vertex;
-    int32_t *face;      /* [n_face][3] local vertex numbers, counter-clockwise seen from outside */
-    uint32_t *owner;    /* [n_face] 4 * tet + face */
-    int32_t *vertex;    /* [n_vertex] the mesh's vertex of a local number; ascending */
-    int64_t *across;    /* [n_face][3] 3 * face + edge on the other side of edge i (from corner i to corner i + 1); -1
-                           where    the edge does not belong to exactly two faces that run along it in opposite senses */
-    size_t n_odd_edge;  /* edges with across -1, each counted once a face */
+    int32_t *face;     /* [n_face][3] local vertex numbers, counter-clockwise seen from outside */
+    uint32_t *owner;   /* [n_face] 4 * tet + face */
+    int32_t *vertex;   /* [n_vertex] the mesh's vertex of a local number; ascending */
+    int64_t *across;   /* [n_face][3] 3 * face + edge beyond edge i (from corner i to corner i + 1), or -1: see below */
+    size_t n_odd_edge; /* edges with across -1, that do not belong to exactly two faces running along them in
+                          opposite senses; each counted once a face */
     size_t n_component; /* edge-connected parts of the surface */
 } tc_boundary;
 

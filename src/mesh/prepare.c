@@ -139,6 +139,18 @@ static tc_status fill_gaps(tc_mesh *m, const tc_prepare_options *o, const tc_log
     return TC_OK;
 }
 
+/* Is a prepared mesh's way over gaps what is asked for now? Notes that it was asked for. */
+static bool in_force(tc_mesh *m, tc_reentry asked)
+{
+    tc_reentry now = m->report.reentry;
+    if (m->asked != asked && now != asked && !(asked == TC_REENTRY_AUTO && now == TC_REENTRY_CONVEXIFY))
+        return false;
+    if (now == asked)
+        m->report.reentry_why[0] = 0; /* what was a way out is now the way asked for */
+    m->asked = asked;
+    return true;
+}
+
 tc_status tc_mesh_prepare(tc_mesh *mesh, const tc_prepare_options *options, const tc_log *log, tc_error *err)
 {
     if (!mesh)
@@ -147,7 +159,7 @@ tc_status tc_mesh_prepare(tc_mesh *mesh, const tc_prepare_options *options, cons
     const tc_prepare_options *o = options ? options : &none;
     if ((int)o->reentry < TC_REENTRY_AUTO || (int)o->reentry > TC_REENTRY_PEEL)
         return tc_fail(err, TC_E_ARG, "tc_mesh_prepare: there is no reentry %d", (int)o->reentry);
-    if (mesh->prepared && mesh->asked == o->reentry)
+    if (mesh->prepared && in_force(mesh, o->reentry))
         return TC_OK;
     if (!mesh->prepared) {
         tc_status status = prepare_first(mesh, o, log, err);

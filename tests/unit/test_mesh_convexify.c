@@ -245,6 +245,9 @@ static void another_reentry_redoes_only_the_gaps(void **state)
     assert_true(filled.n_imaginary > 0);
     assert_true(m->serial != serial);
     assert_memory_equal(tet, m->tet, bytes);
+    serial = m->serial;
+    shape_prepare(m, TC_REENTRY_AUTO);
+    assert_true(m->serial == serial); /* filled already */
     shape_prepare(m, TC_REENTRY_PEEL);
     shape_check_promises(m);
     assert_int_equal(m->n_imaginary, 0);
