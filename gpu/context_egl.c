@@ -70,15 +70,21 @@ static tc_status open_display(tc_context *context, EGLDisplay display, tc_error 
     if (display == EGL_NO_DISPLAY || !s->initialize(display, NULL, NULL))
         return tc_fail(err, TC_E_GL, "EGL cannot open this display");
     s->display = display;
-    const EGLint config_attributes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    const EGLint config_attributes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                        EGL_NONE};
     EGLConfig config = NULL;
     EGLint n = 0;
     if (!s->choose_config(display, config_attributes, &config, 1, &n) || n < 1)
         config = NULL; /* EGL_KHR_no_config_context */
     s->bind_api(EGL_OPENGL_API);
     for (int minor = 5; minor >= 3 && s->context == EGL_NO_CONTEXT; minor -= 2) {
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, minor,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                     4,
+                                     EGL_CONTEXT_MINOR_VERSION,
+                                     minor,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_NONE};
         s->context = s->create_context(display, config, EGL_NO_CONTEXT, attributes);
     }
     tc_status status = TC_OK;
@@ -122,8 +128,7 @@ static tc_status egl_create(tc_context *context, tc_error *err)
         n = 0;
     for (int software = 0; software < 2; software++) /* hardware devices first */
         for (EGLint i = 0; i < n; i++) {
-            const char *extensions =
-                s->query_device_string ? s->query_device_string(devices[i], EGL_EXTENSIONS) : NULL;
+            const char *extensions = s->query_device_string ? s->query_device_string(devices[i], EGL_EXTENSIONS) : NULL;
             bool is_software = extensions && strstr(extensions, "EGL_MESA_device_software") != NULL;
             if (is_software == (software == 1) &&
                 open_display(context, s->get_platform_display(EGL_PLATFORM_DEVICE_EXT, devices[i], NULL), err) == TC_OK)

@@ -60,13 +60,20 @@ static tc_status osmesa_create(tc_context *context, tc_error *err)
     if (!load(s, "OSMesaCreateContextAttribs", &s->create) || !load(s, "OSMesaDestroyContext", &s->destroy) ||
         !load(s, "OSMesaMakeCurrent", &s->make_current) || !load(s, "OSMesaGetProcAddress", &s->get_proc))
         return tc_fail(err, TC_E_GL, "libOSMesa is too old: OSMesaCreateContextAttribs is missing (Mesa 12 or later)");
-    const int attributes[] = {OSMESA_FORMAT,   OSMESA_RGBA,
-                              OSMESA_DEPTH_BITS, 0,
-                              OSMESA_STENCIL_BITS, 0,
-                              OSMESA_ACCUM_BITS, 0,
-                              OSMESA_PROFILE,  OSMESA_CORE_PROFILE,
-                              OSMESA_CONTEXT_MAJOR_VERSION, 4,
-                              OSMESA_CONTEXT_MINOR_VERSION, 5,
+    const int attributes[] = {OSMESA_FORMAT,
+                              OSMESA_RGBA,
+                              OSMESA_DEPTH_BITS,
+                              0,
+                              OSMESA_STENCIL_BITS,
+                              0,
+                              OSMESA_ACCUM_BITS,
+                              0,
+                              OSMESA_PROFILE,
+                              OSMESA_CORE_PROFILE,
+                              OSMESA_CONTEXT_MAJOR_VERSION,
+                              4,
+                              OSMESA_CONTEXT_MINOR_VERSION,
+                              5,
                               0};
     s->context = s->create(attributes, NULL);
     if (!s->context)

@@ -1,5 +1,5 @@
-/* first_hit.h: finds where each ray enters the mesh: boundary faces, drawn (Weiler et al. 2003, 3.1; design: "First hit").
- * With peeling, one call finds each ray's next entry. */
+/* first_hit.h: finds where each ray enters the mesh: boundary faces, drawn (Weiler et al. 2003, 3.1; design: "First
+ * hit"). With peeling, one call finds each ray's next entry. */
 #ifndef TC_GPU_FIRST_HIT_H
 #define TC_GPU_FIRST_HIT_H
 

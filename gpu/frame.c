@@ -50,7 +50,8 @@ void tc_frame_build(tc_frame *out, const tc_rays *rays, const double center[3], 
     /* The view's axis: the direction of the image's middle. */
     double axis[3];
     for (int k = 0; k < 3; k++)
-        axis[k] = rays->direction[k] + 0.5 * rays->width * rays->direction_dx[k] + 0.5 * rays->height * rays->direction_dy[k];
+        axis[k] =
+            rays->direction[k] + 0.5 * rays->width * rays->direction_dx[k] + 0.5 * rays->height * rays->direction_dy[k];
     tc_vec_normalize(axis);
 
     tc_vec_copy(out->direction, rays->direction);

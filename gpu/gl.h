@@ -109,7 +109,8 @@ typedef struct tc_gl {
 
 typedef void *(*tc_get_proc)(const char *name);
 
-/* Fills the table for the context that is current. Errors: TC_E_GL, naming the missing function or the version found. */
+/* Fills the table for the context that is current. Errors: TC_E_GL, naming the missing function or the version found.
+ */
 tc_status tc_gl_load(tc_gl *gl, tc_get_proc get_proc, tc_error *err);
 /* TC_E_GL with GL's error name if one is pending; `what` says what was being done. */
 tc_status tc_gl_check(const tc_gl *gl, const char *what, tc_error *err);

@@ -20,13 +20,13 @@ typedef struct tc_job {
     GLuint screen_array;           /* an empty vertex array */
     const tc_log *log;
 
-    tc_integrator integrator; /* TABLE or INTEGRAL */
+    tc_integrator integrator;                    /* TABLE or INTEGRAL */
     bool has_imaginary, peel, cell_data, extend; /* extend: data reach beyond the transfer function's knots */
-    double length_unit;        /* half diagonals → unit distances */
-    double transmittance_stop; /* <= 0 … : 1 - opacity stop; negative: never */
-    double map[2];             /* packed scalar → x = s*map[0] + map[1] */
-    double texel[3][2];        /* coordinate → texture coordinate, by axis */
-    double mean[4];            /* running integrals: mean slope */
+    double length_unit;                          /* half diagonals → unit distances */
+    double transmittance_stop;                   /* <= 0 … : 1 - opacity stop; negative: never */
+    double map[2];                               /* packed scalar → x = s*map[0] + map[1] */
+    double texel[3][2];                          /* coordinate → texture coordinate, by axis */
+    double mean[4];                              /* running integrals: mean slope */
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
     bool count;

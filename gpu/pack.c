@@ -79,8 +79,7 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err)
     out->face = tc_alloc(faces, TC_PACK_FACE_INTS * sizeof *out->face);
     out->face_corner = tc_alloc(faces, 9 * sizeof *out->face_corner);
     out->cell_scalar = cell_data ? tc_alloc(mesh->n_tet, sizeof *out->cell_scalar) : NULL;
-    if (!out->cell || !out->vertex || !out->face || !out->face_corner ||
-        (cell_data && !out->cell_scalar)) {
+    if (!out->cell || !out->vertex || !out->face || !out->face_corner || (cell_data && !out->cell_scalar)) {
         tc_pack_finish(out);
         return tc_fail_memory(err, "the packed mesh", n, 24);
     }

@@ -1,8 +1,9 @@
 /* pingpong.c: the rasterization loop of Weiler et al. 2003, 5.2.
  *
  * Each pass reads one set of state textures and writes the other. After every z_update_every passes (an even number, so
- * that the final state of a finished ray stands in set 0) a z-update pass locks finished rays by depth; the occlusion query around it
- * counts them. A query's result is asked for only when it is there: the loop stays two passes ahead of the last z-update. */
+ * that the final state of a finished ray stands in set 0) a z-update pass locks finished rays by depth; the occlusion
+ * query around it counts them. A query's result is asked for only when it is there: the loop stays two passes ahead of
+ * the last z-update. */
 #include "gpu/pingpong.h"
 
 #include "core/memory.h"
@@ -25,7 +26,7 @@ typedef struct loop {
     GLsync lock_fence;
     GLuint *pass_query; /* counting: one each pass */
     size_t pass_capacity;
-    int64_t open;       /* rays not known to be finished */
+    int64_t open; /* rays not known to be finished */
 } loop;
 
 static void bind_transfer(const tc_job *job, GLuint program)

@@ -4,8 +4,8 @@
 
 #include "gpu/job.h"
 
-/* First hit and march of one frame; leaves the final state in set 0. Errors: TC_E_GL, TC_E_MEMORY. Lost rays are counted,
- * not an error here. */
+/* First hit and march of one frame; leaves the final state in set 0. Errors: TC_E_GL, TC_E_MEMORY. Lost rays are
+ * counted, not an error here. */
 tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err);
 
 #endif

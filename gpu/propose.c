@@ -1,8 +1,8 @@
 /* propose.c: boundary faces as enlarged screen polygons.
  *
  * A triangle with no sharp corner is enlarged by moving its edges out by a margin (three corners still); a small one
- * becomes the rectangle around it; a long thin one its triangle and a quad about each edge, since moved edges would meet
- * far away. The set of proposed pixels is always larger than that of the rays through the face. */
+ * becomes the rectangle around it; a long thin one its triangle and a quad about each edge, since moved edges would
+ * meet far away. The set of proposed pixels is always larger than that of the rays through the face. */
 #include "gpu/propose.h"
 
 #include "core/memory.h"
@@ -11,12 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CORNERS = 21 }; /* that one face may need */
-static const float MARGIN = 0.0625f;   /* pixels: how far a face is enlarged beside its rounding error */
-static const float ROUNDING = 1e-6f;   /* of clip coordinates, relative to their terms */
-static const float SMALL = 6.0f;       /* pixels: a face this small becomes a rectangle when it has a sharp corner */
-static const float MITRE_SIN = 0.3f;   /* sine of the sharpest corner whose edges are moved */
-static const float W_MIN = 1e-4f;      /* of the largest w: nearer to the eye's plane a place on the screen has no meaning */
+enum { MOST_CORNERS = 21 };          /* that one face may need */
+static const float MARGIN = 0.0625f; /* pixels: how far a face is enlarged beside its rounding error */
+static const float ROUNDING = 1e-6f; /* of clip coordinates, relative to their terms */
+static const float SMALL = 6.0f;     /* pixels: a face this small becomes a rectangle when it has a sharp corner */
+static const float MITRE_SIN = 0.3f; /* sine of the sharpest corner whose edges are moved */
+static const float W_MIN = 1e-4f; /* of the largest w: nearer to the eye's plane a place on the screen has no meaning */
 
 typedef struct point {
     float x, y;
@@ -77,7 +77,8 @@ static float length_of(point a)
     return sqrtf(a.x * a.x + a.y * a.y);
 }
 
-/* Corner p between the edges from `before` and to `after` (unit vectors, counter-clockwise), both moved out by the margin. */
+/* Corner p between the edges from `before` and to `after` (unit vectors, counter-clockwise), both moved out by the
+ * margin. */
 static point mitre(const screen *s, point p, point before, point after)
 {
     float sine = cross(before, after); /* > MITRE_SIN */
@@ -97,8 +98,10 @@ static void propose_face(tc_proposals *out, const screen *s, int32_t face, const
     float area = cross(e[0], minus(p[2], p[0]));
     if (area < -(1 + s->margin) * (1 + 0.02f * longest))
         return; /* clearly looks away */
-    float lo_x = fminf(p[0].x, fminf(p[1].x, p[2].x)) - s->margin, hi_x = fmaxf(p[0].x, fmaxf(p[1].x, p[2].x)) + s->margin;
-    float lo_y = fminf(p[0].y, fminf(p[1].y, p[2].y)) - s->margin, hi_y = fmaxf(p[0].y, fmaxf(p[1].y, p[2].y)) + s->margin;
+    float lo_x = fminf(p[0].x, fminf(p[1].x, p[2].x)) - s->margin,
+          hi_x = fmaxf(p[0].x, fmaxf(p[1].x, p[2].x)) + s->margin;
+    float lo_y = fminf(p[0].y, fminf(p[1].y, p[2].y)) - s->margin,
+          hi_y = fmaxf(p[0].y, fmaxf(p[1].y, p[2].y)) + s->margin;
     if (hi_x < 0 || hi_y < 0 || lo_x > s->width || lo_y > s->height)
         return;
     bool blunt = area > 0;
@@ -142,8 +145,8 @@ static float clip_rounding(const screen *s)
     return ROUNDING * 0.5f * fmaxf(terms[0] * s->width, terms[1] * s->height);
 }
 
-tc_status tc_propose(tc_proposals *out, const tc_frame *frame, int width, int height, const float *corner, size_t n_face,
-                     tc_error *err)
+tc_status tc_propose(tc_proposals *out, const tc_frame *frame, int width, int height, const float *corner,
+                     size_t n_face, tc_error *err)
 {
     screen s = {.width = (float)width, .height = (float)height, .clip = frame->clip};
     s.rounding = clip_rounding(&s);

@@ -1,4 +1,5 @@
-/* propose.h: which pixels may hold an entry into the mesh: boundary faces as enlarged screen polygons. No GL call in it. */
+/* propose.h: which pixels may hold an entry into the mesh: boundary faces as enlarged screen polygons. No GL call in
+ * it. */
 #ifndef TC_GPU_PROPOSE_H
 #define TC_GPU_PROPOSE_H
 
@@ -20,8 +21,8 @@ typedef struct tc_proposals {
  * Faces that clearly look away or lie behind the eye are left out; the exact decision is first_hit.frag's.
  *   corner [n_face][3][3]: places of the faces' corners as packed, borrowed
  * Errors: TC_E_MEMORY. Cost: about 30 ns a face. */
-tc_status tc_propose(tc_proposals *out, const tc_frame *frame, int width, int height, const float *corner, size_t n_face,
-                     tc_error *err);
+tc_status tc_propose(tc_proposals *out, const tc_frame *frame, int width, int height, const float *corner,
+                     size_t n_face, tc_error *err);
 void tc_proposals_finish(tc_proposals *proposals);
 
 #endif

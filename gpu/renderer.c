@@ -40,8 +40,8 @@ tc_status tc_gpu_renderer_create(tc_gpu_renderer **out, const char *name, tc_get
     if (!r)
         return tc_fail_memory(err, "a renderer", 1, sizeof *r);
     r->threads = threads;
-    tc_status status = get_proc ? tc_context_create_host(&r->context, get_proc, err)
-                                : tc_context_create(&r->context, name, log, err);
+    tc_status status =
+        get_proc ? tc_context_create_host(&r->context, get_proc, err) : tc_context_create(&r->context, name, log, err);
     if (status == TC_OK)
         status = tc_program_cache_create(&r->programs, &r->context->gl, err);
     if (status == TC_OK) {
@@ -271,8 +271,9 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
         free(result.fragments);
     }
     if (status == TC_OK && result.rays_lost > 0)
-        status = tc_fail(err, TC_E_LOST, "%lld of %lld rays were lost; the picture is not to be trusted, please report it",
-                         (long long)result.rays_lost, (long long)result.rays);
+        status =
+            tc_fail(err, TC_E_LOST, "%lld of %lld rays were lost; the picture is not to be trusted, please report it",
+                    (long long)result.rays_lost, (long long)result.rays);
     return status;
 }
 

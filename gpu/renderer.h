@@ -8,7 +8,8 @@
 
 typedef struct tc_gpu_renderer tc_gpu_renderer;
 
-/* One frame's inputs; all borrowed. options is resolved: no zero means "default" any more except where renderer.c says. */
+/* One frame's inputs; all borrowed. options is resolved: no zero means "default" any more except where renderer.c says.
+ */
 typedef struct tc_gpu_frame {
     const tc_mesh *mesh;
     const tc_transfer *transfer;

@@ -1,14 +1,15 @@
-/* state.h: the textures that carry rays from pass to pass: two sets for ping-pong (Weiler et al. 2003, 5.1, Table 1). */
+/* state.h: the textures that carry rays from pass to pass: two sets for ping-pong (Weiler et al. 2003, 5.1, Table 1).
+ */
 #ifndef TC_GPU_STATE_H
 #define TC_GPU_STATE_H
 
 #include "gpu/gl.h"
 
 typedef struct tc_state_set {
-    GLuint walk;  /* RGBA32I: cell, face's vertices */
-    GLuint color; /* RGBA32F: colour, optical depth or transmittance */
-    GLuint at;    /* RG32F: depth, scalar */
-    GLuint steps; /* R32UI, only when counting */
+    GLuint walk;        /* RGBA32I: cell, face's vertices */
+    GLuint color;       /* RGBA32F: colour, optical depth or transmittance */
+    GLuint at;          /* RG32F: depth, scalar */
+    GLuint steps;       /* R32UI, only when counting */
     GLuint framebuffer; /* all of them, and the lock */
 } tc_state_set;
 
@@ -16,11 +17,11 @@ typedef struct tc_state {
     int width, height;
     bool counting, peeling;
     tc_state_set set[2];
-    GLuint lock;      /* depth renderbuffer: near where the ray is finished */
-    GLuint lock_framebuffer; /* the lock alone */
-    GLuint hit_depth; /* depth renderbuffer of the first hit */
-    GLuint hit_framebuffer[2]; /* walk and at of set 0, key i when peeling */
-    GLuint key[2];    /* RG32I: previous and next entry, only when peeling */
+    GLuint lock;                       /* depth renderbuffer: near where the ray is finished */
+    GLuint lock_framebuffer;           /* the lock alone */
+    GLuint hit_depth;                  /* depth renderbuffer of the first hit */
+    GLuint hit_framebuffer[2];         /* walk and at of set 0, key i when peeling */
+    GLuint key[2];                     /* RG32I: previous and next entry, only when peeling */
     GLuint result, result_framebuffer; /* RGBA32F */
     size_t bytes;
 } tc_state;

@@ -21,7 +21,8 @@ typedef struct tc_transfer_gpu {
     double scalar[2], length_max, span[2], mean[4];
 } tc_transfer_gpu;
 
-/* Builds and uploads what changed; sets job's integrator, extend, map, texel and mean. Errors: TC_E_ARG, TC_E_MEMORY, TC_E_GL. */
+/* Builds and uploads what changed; sets job's integrator, extend, map, texel and mean. Errors: TC_E_ARG, TC_E_MEMORY,
+ * TC_E_GL. */
 tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *transfer, tc_job *job, const tc_transfer_gpu_request *request,
                                  const tc_gl *gl, tc_render_stats *stats, tc_error *err);
 void tc_transfer_gpu_finish(tc_transfer_gpu *transfer, const tc_gl *gl);

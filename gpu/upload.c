@@ -84,11 +84,10 @@ tc_status tc_gpu_table_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_ta
     memset(out, 0, sizeof *out);
     for (int k = 0; k < 3; k++)
         if (table->size[k] > gl->max_texture_3d)
-            return tc_fail(err, TC_E_ARG, "a table %d entries wide is too large for %s (%d); use a smaller --table-size",
+            return tc_fail(err, TC_E_ARG,
+                           "a table %d entries wide is too large for %s (%d); use a smaller --table-size",
                            table->size[k], gl->renderer, gl->max_texture_3d);
-    GLenum internal = table->format == TC_TABLE_8     ? GL_RGBA8
-                      : table->format == TC_TABLE_16F ? GL_RGBA16F
-                                                      : GL_RGBA32F;
+    GLenum internal = table->format == TC_TABLE_8 ? GL_RGBA8 : table->format == TC_TABLE_16F ? GL_RGBA16F : GL_RGBA32F;
     GLenum type = table->format == TC_TABLE_8     ? GL_UNSIGNED_BYTE
                   : table->format == TC_TABLE_16F ? GL_HALF_FLOAT
                                                   : GL_FLOAT;

@@ -32,7 +32,9 @@ tc_status tc_backends(tc_backend_info *out, size_t capacity, size_t *n, tc_error
         bool cpu = driver->name[0] == 'r';
         *info = (tc_backend_info){.kind = "driver", .name = driver->name, .works = cpu || any_gl};
         snprintf(info->why, sizeof info->why, "%s",
-                 cpu ? "double precision on the CPU" : any_gl ? "OpenGL 4.3, multi-pass" : "needs a GL context");
+                 cpu      ? "double precision on the CPU"
+                 : any_gl ? "OpenGL 4.3, multi-pass"
+                          : "needs a GL context");
     }
     return TC_OK;
 }

@@ -31,7 +31,8 @@ extern const tc_driver tc_drivers[];
 /* options with every default filled in; the default unit distance: bounds diagonal / cbrt(cells). */
 double tc_default_unit(const tc_mesh *mesh);
 /* Checks what every driver relies on and fills options and rays. Errors: TC_E_ARG. */
-tc_status tc_resolve(tc_render_options *resolved, double *unit, tc_rays *rays, const tc_mesh *mesh,
-                     const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options, tc_error *err);
+tc_status tc_render_resolve(tc_render_options *resolved, double *unit, tc_rays *rays, const tc_mesh *mesh,
+                            const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
+                            tc_error *err);
 
 #endif

@@ -27,8 +27,9 @@ double tc_default_unit(const tc_mesh *mesh)
     return unit > 0 && isfinite(unit) ? unit : 1;
 }
 
-tc_status tc_resolve(tc_render_options *resolved, double *unit, tc_rays *rays, const tc_mesh *mesh,
-                     const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options, tc_error *err)
+tc_status tc_render_resolve(tc_render_options *resolved, double *unit, tc_rays *rays, const tc_mesh *mesh,
+                            const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
+                            tc_error *err)
 {
     if (!mesh || !tf || !camera || !options)
         return tc_fail(err, TC_E_ARG, "a mesh, a transfer function, a camera and options are needed");
@@ -84,7 +85,8 @@ static tc_status reference_create(tc_renderer *r, const tc_renderer_options *opt
     (void)r;
     (void)log;
     if (options->get_proc_address)
-        return tc_fail(err, TC_E_ARG, "the driver 'reference' renders on the CPU; it does not draw into a host's context");
+        return tc_fail(err, TC_E_ARG,
+                       "the driver 'reference' renders on the CPU; it does not draw into a host's context");
     return TC_OK;
 }
 
@@ -193,7 +195,7 @@ tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *rendere
     tc_render_options resolved;
     tc_rays rays;
     tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = &resolved, .log = log};
-    tc_status status = tc_resolve(&resolved, &frame.unit_distance, &rays, mesh, tf, camera, options, err);
+    tc_status status = tc_render_resolve(&resolved, &frame.unit_distance, &rays, mesh, tf, camera, options, err);
     if (status == TC_OK)
         status = tc_image_create(out, resolved.width, resolved.height, err);
     if (status != TC_OK)
@@ -218,7 +220,7 @@ tc_status tc_render_gl(unsigned framebuffer, tc_render_stats *stats, tc_renderer
     tc_render_options resolved;
     tc_rays rays;
     tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = &resolved, .log = log};
-    tc_status status = tc_resolve(&resolved, &frame.unit_distance, &rays, mesh, tf, camera, options, err);
+    tc_status status = tc_render_resolve(&resolved, &frame.unit_distance, &rays, mesh, tf, camera, options, err);
     if (status != TC_OK)
         return status;
     tc_gl_saved saved;

@@ -11,7 +11,7 @@ tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint
     tc_render_options resolved;
     tc_rays rays;
     double unit;
-    tc_status status = tc_resolve(&resolved, &unit, &rays, mesh, tf, camera, options, err);
+    tc_status status = tc_render_resolve(&resolved, &unit, &rays, mesh, tf, camera, options, err);
     if (status == TC_OK && (image->width != resolved.width || image->height != resolved.height))
         status = tc_fail(err, TC_E_ARG, "the picture is %dx%d, the options say %dx%d", image->width, image->height,
                          resolved.width, resolved.height);
