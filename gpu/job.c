@@ -23,5 +23,5 @@ void tc_job_bind_mesh(const tc_job *job, GLuint program)
     if (job->cell_data)
         tc_pass_texture(gl, program, "mesh_cell_scalar", 2, GL_TEXTURE_BUFFER, job->mesh->cell_scalar.texture);
     if (job->has_imaginary)
-        tc_pass_int(gl, program, "mesh_real", (int)job->mesh->n_real);
+        tc_pass_int(gl, program, "mesh_real", (int)job->mesh->n_real * TC_PACK_CELL_INTS);
 }

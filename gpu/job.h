@@ -25,7 +25,8 @@ typedef struct tc_job {
     double length_unit;                          /* half diagonals → unit distances */
     double transmittance_stop;                   /* <= 0 … : 1 - opacity stop; negative: never */
     double map[2];                               /* packed scalar → x = s*map[0] + map[1] */
-    double texel[3][2];                          /* coordinate → texture coordinate, by axis */
+    double texel[3][2];                          /* table: coordinate → texture coordinate, by axis */
+    double grid[2];                              /* running integrals: intervals between nodes, length of one */
     double mean[4];                              /* running integrals: mean slope */
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */

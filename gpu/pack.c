@@ -18,7 +18,7 @@ static void pack_cell(int32_t *out, const int32_t *tet, const int32_t *neighbour
         int rank = 0;
         for (int k = 0; k < 4; k++)
             rank += tet[f] > tet[k];
-        out[1 + rank] = neighbour[f];
+        out[1 + rank] = neighbour[f] < 0 ? -1 : neighbour[f] * TC_PACK_CELL_INTS;
     }
 }
 
@@ -99,7 +99,7 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err)
                     memcpy(corner + 3 * k, out->vertex + 4 * (size_t)face[k], 3 * sizeof *corner);
                 }
                 corner += 9;
-                face[3] = (int32_t)i;
+                face[3] = (int32_t)i * TC_PACK_CELL_INTS;
                 face += TC_PACK_FACE_INTS;
             }
     }

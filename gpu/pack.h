@@ -8,9 +8,10 @@ enum { TC_PACK_CELL_INTS = 5, TC_PACK_VERTEX_FLOATS = 4, TC_PACK_FACE_INTS = 4 }
 
 /* Positions are recentred on the bounding box and scaled by its half diagonal in double, then rounded to float once;
  * scalars are mapped from scalar_lo … scalar_hi to 0 … 1. 20 bytes a cell, 16 a vertex (after Aman et al. 2022):
- *   cell   [n_cell][5]   XOR of the four vertex ids, then the four neighbours in the order of the sorted vertex ids
+ *   cell   [n_cell][5]   XOR of the four vertex ids, then the four neighbours in the order of the sorted
+ *                        vertex ids: where their records start (5 x index), -1 outside
  *   vertex [n_vertex][4] x, y, z, scalar (0 with cell data and where a value is not finite)
- *   face   [n_face][4]   boundary faces: three ids counter-clockwise from outside, and the cell behind
+ *   face   [n_face][4]   boundary faces: three ids counter-clockwise from outside, and the record of the cell behind
  *   face_corner [n_face][3][3] where those three are: stays on the CPU (propose.h)
  *   cell_scalar [n_tet]  with cell data only, else NULL */
 typedef struct tc_pack {

@@ -39,9 +39,8 @@ static void bind_transfer(const tc_job *job, GLuint program)
         tc_pass_vec2(gl, program, "tf_texel[1]", job->texel[1][0], job->texel[1][1]);
         tc_pass_vec2(gl, program, "tf_texel[2]", job->texel[2][0], job->texel[2][1]);
     } else {
-        tc_pass_texture(gl, program, "tf_point", UNIT_TF, GL_TEXTURE_1D, job->transfer->point);
-        tc_pass_texture(gl, program, "tf_cumulative", UNIT_TF + 1, GL_TEXTURE_1D, job->transfer->cumulative);
-        tc_pass_vec2(gl, program, "tf_texel", job->texel[0][0], job->texel[0][1]);
+        tc_pass_texture(gl, program, "tf_nodes", UNIT_TF, GL_TEXTURE_BUFFER, job->transfer->nodes.texture);
+        tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
         tc_pass_vec4(gl, program, "tf_mean", job->mean);
     }
 }

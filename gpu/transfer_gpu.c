@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { RUNNING_NODES = 4096 };
+enum { RUNNING_NODES = 8192 };
 
 static tc_integrator choose(const tc_render_options *options, tc_render_stats *stats)
 {
@@ -48,6 +48,8 @@ static void bind(tc_job *job, const tc_transfer_gpu *t)
     }
     if (t->integrator == TC_INTEGRATOR_TABLE)
         job->texel[2][0] /= t->length_max;
+    job->grid[0] = t->size[0] - 1;
+    job->grid[1] = 1 / job->grid[0];
 }
 
 static tc_status build_table(tc_transfer_gpu *t, const tc_transfer_gpu_request *request, const tc_gl *gl,
@@ -99,7 +101,7 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         wanted.format = options->table_format == TC_TABLE_AUTO ? TC_TABLE_16F : options->table_format;
         wanted.length_max = request->length_max > 0 ? request->length_max : 1;
     } else {
-        wanted.size[0] = RUNNING_NODES < gl->max_texture_size ? RUNNING_NODES : gl->max_texture_size;
+        wanted.size[0] = RUNNING_NODES;
     }
     bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
                 memcmp(t->size, wanted.size, sizeof t->size) == 0 && t->length_max == wanted.length_max &&

@@ -1,8 +1,10 @@
 /* upload.c: packed arrays and transfer functions → textures. */
 #include "gpu/upload.h"
 
+#include "core/memory.h"
 #include "core/parallel.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static tc_status upload_buffer(tc_texture_buffer *out, const tc_gl *gl, const void *data, size_t n_texel,
@@ -104,12 +106,18 @@ tc_status tc_gpu_table_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_ta
 tc_status tc_gpu_running_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_running *running, tc_error *err)
 {
     memset(out, 0, sizeof *out);
-    out->bytes = (size_t)running->n * 32;
-    out->point = linear_texture(gl, GL_TEXTURE_1D);
-    gl->TexImage1D(GL_TEXTURE_1D, 0, GL_RGBA32F, running->n, 0, GL_RGBA, GL_FLOAT, running->point);
-    out->cumulative = linear_texture(gl, GL_TEXTURE_1D);
-    gl->TexImage1D(GL_TEXTURE_1D, 0, GL_RGBA32F, running->n, 0, GL_RGBA, GL_FLOAT, running->cumulative);
-    tc_status status = tc_gl_check(gl, "uploading the running integrals", err);
+    size_t n = (size_t)running->n;
+    float *nodes = tc_alloc(n, 8 * sizeof *nodes);
+    if (!nodes)
+        return tc_fail_memory(err, "the running integrals", n, 8 * sizeof *nodes);
+    for (size_t i = 0; i < n; i++) {
+        memcpy(nodes + 8 * i, running->point + 4 * i, 4 * sizeof *nodes);
+        memcpy(nodes + 8 * i + 4, running->cumulative + 4 * i, 4 * sizeof *nodes);
+    }
+    tc_status status =
+        upload_buffer(&out->nodes, gl, nodes, 2 * n, 16, GL_RGBA32F, "uploading the running integrals", err);
+    out->bytes = out->nodes.bytes;
+    free(nodes);
     if (status != TC_OK)
         tc_gpu_transfer_finish(out, gl);
     return status;
@@ -117,9 +125,8 @@ tc_status tc_gpu_running_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_
 
 void tc_gpu_transfer_finish(tc_gpu_transfer *transfer, const tc_gl *gl)
 {
-    GLuint textures[3] = {transfer->table, transfer->point, transfer->cumulative};
-    for (int i = 0; i < 3; i++)
-        if (textures[i])
-            gl->DeleteTextures(1, &textures[i]);
+    if (transfer->table)
+        gl->DeleteTextures(1, &transfer->table);
+    finish_buffer(&transfer->nodes, gl);
     memset(transfer, 0, sizeof *transfer);
 }

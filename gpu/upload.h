@@ -23,9 +23,11 @@ typedef struct tc_gpu_mesh {
 tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, tc_error *err);
 void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl);
 
-/* A transfer function's textures: `table` (3-D) or `point` and `cumulative` (1-D). */
+/* A transfer function's textures: `table` (3-D) or `nodes` (running integrals: two texels a node, point and
+ * cumulative). */
 typedef struct tc_gpu_transfer {
-    GLuint table, point, cumulative;
+    GLuint table;
+    tc_texture_buffer nodes;
     size_t bytes;
 } tc_gpu_transfer;
 

@@ -26,14 +26,14 @@ void integral_enter(inout Integral i, float s)
     i.front = s;
 }
 
-void integral_add(inout Integral i, Segment segment, float l)
+// A segment of length l (unit distances) over which the scalar runs linearly from the last one to s.
+void integral_add(inout Integral i, float s, float l)
 {
-    vec4 c = textureLod(tf_table, tf_coordinate(i.front, segment.s1, l), 0.0);
-    if (segment.real) {
-        i.color.rgb += i.color.a * c.rgb;
-        i.color.a *= 1.0 - c.a;
-    }
-    i.front = segment.s1;
+    vec4 c = textureLod(tf_table, tf_coordinate(i.front, s, l), 0.0);
+    c *= l > 0.0 ? 1.0 : 0.0;
+    i.color.rgb += i.color.a * c.rgb;
+    i.color.a *= 1.0 - c.a;
+    i.front = s;
 }
 
 float integral_transmittance(Integral i)

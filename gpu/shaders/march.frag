@@ -54,10 +54,10 @@ void main()
             }
 #endif
 #ifdef CELL_DATA
-            segment.s0 = segment.s1 = texelFetch(mesh_cell_scalar, segment.real ? segment.cell : 0).x;
+            segment.s0 = segment.s1 = segment.real ? mesh_cell_value(segment.cell) : 0.0;
             integral_enter(integral, segment.s0);
 #endif
-            integral_add(integral, segment, (segment.z1 - segment.z0) * length_unit);
+            integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
             if (integral_transmittance(integral) <= transmittance_stop)
                 w.cell = -2;
             if (w.cell < 0)

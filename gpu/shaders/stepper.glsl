@@ -11,7 +11,7 @@
 
 // A ray at a face that holds it, about to enter `cell` through it.
 struct Walk {
-    int cell;      // -1: outside
+    int cell;      // where the cell's record starts; -1: outside
     ivec3 id;      // the face's vertices, counter-clockwise around the ray
     vec4 a, b, c;  // projected: x, y across, z along the ray, and the scalar
     vec3 weight;   // crosses (b,c), (c,a), (a,b), all positive: the ray's barycentric coordinates in the face
@@ -34,8 +34,8 @@ vec4 walk_vertex(Ray ray, int id)
 // Depth and scalar at the walk's face: a convex combination, so both stay within the face's own values.
 vec2 walk_face_point(Walk w)
 {
-    vec3 k = w.weight / (w.weight.x + w.weight.y + w.weight.z);
-    return k.x * w.a.zw + k.y * w.b.zw + k.z * w.c.zw;
+    vec2 sum = w.weight.x * w.a.zw + w.weight.y * w.b.zw + w.weight.z * w.c.zw;
+    return sum * (1.0 / (w.weight.x + w.weight.y + w.weight.z));
 }
 
 // Sets up the face (id) that the ray meets; false when the signs say that it does not. `facing` gets +1 when the
@@ -73,31 +73,19 @@ Segment walk_step(inout Walk w, Ray ray)
     float db = sign_cross(d.xy, w.b.xy, id, w.id.y);
     float dc = sign_cross(d.xy, w.c.xy, id, w.id.z);
 
-    // The exit face keeps two entry vertices and d: (a,b,d), (c,a,d), else (b,c,d). Two signs choose.
+    // The exit face keeps two entry vertices and d, which takes the dropped one's place: (a,b,d), (a,d,c), else (d,b,c).
+    // Two signs choose. Selections, not branches: lanes of one group differ here.
     bool drop_c = da > 0.0 && db < 0.0;
     bool drop_b = da < 0.0 && dc > 0.0;
-    int dropped;
-    ivec3 others = w.id;
-    if (drop_c) {
-        dropped = w.id.z;
-        w.id.z = id;
-        others.z = id;
-        w.c = d;
-        w.weight = vec3(-db, da, w.weight.z);
-    } else if (drop_b) {
-        dropped = w.id.y;
-        w.id.y = id;
-        others.y = id;
-        w.b = d;
-        w.weight = vec3(dc, w.weight.y, -da);
-    } else {
-        dropped = w.id.x;
-        w.id.x = id;
-        others.x = id;
-        w.a = d;
-        w.weight = vec3(w.weight.x, -dc, db);
-    }
-    w.cell = mesh_neighbour(cell, dropped, others);
+    bool drop_a = !drop_b && !drop_c;
+    int dropped = drop_c ? w.id.z : drop_b ? w.id.y : w.id.x;
+    w.weight = vec3(drop_c ? -db : drop_b ? dc : w.weight.x, drop_a ? -dc : drop_c ? da : w.weight.y,
+                    drop_b ? -da : drop_a ? db : w.weight.z);
+    w.id = ivec3(drop_a ? id : w.id.x, drop_b ? id : w.id.y, drop_c ? id : w.id.z);
+    w.a = drop_a ? d : w.a;
+    w.b = drop_b ? d : w.b;
+    w.c = drop_c ? d : w.c;
+    w.cell = mesh_neighbour(cell, dropped, w.id);
 
     Segment segment;
     segment.cell = cell;
