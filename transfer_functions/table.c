@@ -1,10 +1,17 @@
 /* table.c: the three-dimensional pre-integrated table, built incrementally.
- * Weiler et al. 2003, section 4: the slice of length dl is integrated numerically (segment.h), each further one is put
- * together from it and the slice before it by equations 5 and 6, with linear interpolation at the split point
- *   s_p = s_f + (s_b - s_f) / k,  k = l / dl.
- * The rear part has the same s_b, so each s_b is a recursion of its own. In units of the s_front spacing the split
- * point lies (s_b - s_f) / k beyond s_f: floor of that is constant over runs of up to k consecutive s_f. With the base
- * slice stored by diagonals, all reads of a run are contiguous and the loop over it needs no gather. */
+ * Weiler et al. 2003, section 4: the slice of length dl is integrated numerically (segment.h); every further one is put
+ * together from two shorter ones by equations 5 and 6, with linear interpolation at the split point s_p.
+ *
+ * Two things keep the error from growing with l (the paper's note on accumulation), where splitting off dl each time
+ * blurs the table along s by one more interpolation a slice:
+ * - The front part is the longest slice of 2^j dl shorter than l, so an entry stands on about log2(l / dl)
+ * interpolations, not l / dl. The slices of 2^j dl come from halves.
+ * - The transparency of a segment depends on its length and its mean extinction alone, so
+ *     alpha(s_f, s_b, l1 + l2) = alpha(s_f, s_b, l1) + (1 - alpha(s_f, s_b, l1)) alpha(s_f, s_b, l2)
+ *   holds without any interpolation; the colour of equation 5 is scaled by that opacity over the interpolated one.
+ *
+ * The rear part has the same s_b, so each s_b is a recursion of its own, given the slices of 2^j dl. An entry is one
+ * four-float vector. */
 #include "transfer_functions/table.h"
 
 #include "core/memory.h"
@@ -15,6 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+typedef float quad __attribute__((vector_size(16))); /* r, g, b, a */
+
 typedef struct build {
     const tc_table_options *options;
     tc_table *table;
@@ -22,10 +31,11 @@ typedef struct build {
     size_t n_front, n_back;
     int *node_front, *node_back; /* [n_node] entry along s_front, s_back at a node, or -1 */
     size_t *front_node;          /* [n_front] */
-    size_t stride;               /* floats between channels: n_front and a margin that is read with weight 0 */
-    float *diagonal;             /* [2 n_front + 1][4][stride]: base slice at (f, f + d - n_front) */
-    float *first;                /* [n_back][4][stride]: base slice at the table's own s_back */
-    float *rows;                 /* [threads][2][4][stride] */
+    size_t n_level, level_now;   /* level j: length 2^j dl */
+    quad *level;                 /* [n_level][n_front][n_front]: s_front, then s_back, both at the places of s_front */
+    quad *first;                 /* [n_back][n_front]: base slice at the table's own s_back */
+    size_t n_history;            /* slices 1 .. n_history are front or rear parts of others */
+    quad *history;               /* [threads][n_history + 1][n_front]; the last row is for what is no part */
     double (*value)[4];          /* [threads][n_node] */
     double *error;               /* [threads] */
 } build;
@@ -44,120 +54,102 @@ static inline uint32_t half_of(float v)
     return bits < (UINT32_C(113) << 23) ? tiny : normal;
 }
 
-static void store_8(uint8_t *restrict out, const float *restrict row, size_t stride, size_t n)
+static void store_8(uint8_t *restrict out, const float *restrict value, size_t n)
 {
-    const float *r = row, *g = row + stride, *b = row + 2 * stride, *a = row + 3 * stride;
-    for (size_t i = 0; i < n; i++) {
-        out[4 * i + 0] = (uint8_t)(int)(r[i] * 255.0f + 0.5f);
-        out[4 * i + 1] = (uint8_t)(int)(g[i] * 255.0f + 0.5f);
-        out[4 * i + 2] = (uint8_t)(int)(b[i] * 255.0f + 0.5f);
-        out[4 * i + 3] = (uint8_t)(int)(a[i] * 255.0f + 0.5f);
-    }
+    for (size_t i = 0; i < n; i++)
+        out[i] = (uint8_t)(int)(value[i] * 255.0f + 0.5f);
 }
 
-static void store_16(uint16_t *restrict out, const float *restrict row, size_t stride, size_t n)
+static void store_16(uint16_t *restrict out, const float *restrict value, size_t n)
 {
-    const float *r = row, *g = row + stride, *b = row + 2 * stride, *a = row + 3 * stride;
-    for (size_t i = 0; i < n; i++) {
-        out[4 * i + 0] = (uint16_t)half_of(r[i]);
-        out[4 * i + 1] = (uint16_t)half_of(g[i]);
-        out[4 * i + 2] = (uint16_t)half_of(b[i]);
-        out[4 * i + 3] = (uint16_t)half_of(a[i]);
-    }
+    for (size_t i = 0; i < n; i++)
+        out[i] = (uint16_t)half_of(value[i]);
 }
 
-static void store_32(float *restrict out, const float *restrict row, size_t stride, size_t n)
+static void store_row(const build *job, size_t slice, size_t back, const quad *row)
 {
-    const float *r = row, *g = row + stride, *b = row + 2 * stride, *a = row + 3 * stride;
-    for (size_t i = 0; i < n; i++) {
-        out[4 * i + 0] = r[i];
-        out[4 * i + 1] = g[i];
-        out[4 * i + 2] = b[i];
-        out[4 * i + 3] = a[i];
-    }
-}
-
-static void store_row(const build *job, size_t slice, size_t back, const float *row)
-{
-    const size_t at = 4 * job->n_front * (back + job->n_back * slice);
+    const size_t n = 4 * job->n_front, at = n * (back + job->n_back * slice);
+    const float *value = (const float *)row;
     switch (job->table->format) {
     case TC_TABLE_8:
-        store_8((uint8_t *)job->table->rgba + at, row, job->stride, job->n_front);
+        store_8((uint8_t *)job->table->rgba + at, value, n);
         break;
     case TC_TABLE_16F:
-        store_16((uint16_t *)job->table->rgba + at, row, job->stride, job->n_front);
+        store_16((uint16_t *)job->table->rgba + at, value, n);
         break;
     default:
-        store_32((float *)job->table->rgba + at, row, job->stride, job->n_front);
+        memcpy((float *)job->table->rgba + at, value, n * sizeof *value);
         break;
     }
 }
 
 /* ------------------------------------------------------------------------------------------------------- recursion */
 
-/* s_back of a row in units of the s_front spacing. */
-static double back_place(const build *job, size_t back)
+/* Equations 5 and 6; opacity: that of the whole. */
+static inline quad blend(quad front, quad rear, float opacity)
 {
-    return (double)back * (double)(job->n_front - 1) / (double)(job->n_back - 1);
+    const float pass = 1 - front[3];
+    quad whole = front + pass * rear;
+    whole *= opacity / (whole[3] + 1e-37f);
+    whole[3] = opacity;
+    return whole;
 }
 
-/* Equations 5 and 6 over `count` entries whose split points lie between the diagonals front0 and front1.
- *   before, base   slice k - 1 and the base slice at the entries themselves */
-static void blend_run(float *restrict out, const float *restrict rear, const float *restrict front0,
-                      const float *restrict front1, const float *restrict before, const float *restrict base,
-                      size_t stride, int count, float weight, float step)
+/* Row of slice k from the same row (s_back) of two shorter slices.
+ *   split   fraction of the length that is the front part; its slice is `level`
+ *   near, far   the row in the slices of the front and of the rear part's length
+ *   back    s_back in units of the s_front spacing */
+static void blend_row(quad *restrict out, const quad *restrict level, const quad *restrict near,
+                      const quad *restrict far, size_t n, double split, double back)
 {
-    const size_t g = stride, b = 2 * stride, a = 3 * stride;
-    for (int j = 0; j < count; j++) {
-        const float place = weight - step * (float)j, t = place > 0 ? place : 0;
-        const float front_r = front0[j] + t * (front1[j] - front0[j]);
-        const float front_g = front0[g + j] + t * (front1[g + j] - front0[g + j]);
-        const float front_b = front0[b + j] + t * (front1[b + j] - front0[b + j]);
-        const float front_a = front0[a + j] + t * (front1[a + j] - front0[a + j]);
-        const float rear_a = rear[a + j] + t * (rear[a + j + 1] - rear[a + j]);
-        const float pass = 1 - front_a, blended = front_a + pass * rear_a;
-        const float opacity = before[a + j] + (1 - before[a + j]) * base[a + j];
-        const float scale = opacity / (blended + 1e-37f);
-        out[j] = scale * (front_r + pass * (rear[j] + t * (rear[j + 1] - rear[j])));
-        out[g + j] = scale * (front_g + pass * (rear[g + j] + t * (rear[g + j + 1] - rear[g + j])));
-        out[b + j] = scale * (front_b + pass * (rear[b + j] + t * (rear[b + j + 1] - rear[b + j])));
-        out[a + j] = opacity;
+    for (size_t f = 0; f < n; f++) {
+        const double place = (double)f + (back - (double)f) * split;
+        int p = (int)place;
+        p = p > (int)n - 2 ? (int)n - 2 : p;
+        const float t = (float)(place - p);
+        const quad *front = level + n * f + p, *rear = far + p;
+        out[f] = blend(front[0] + t * (front[1] - front[0]), rear[0] + t * (rear[1] - rear[0]),
+                       near[f][3] + (1 - near[f][3]) * far[f][3]);
     }
 }
 
-/* Row of slice k from the same row of slice k - 1; base: that of slice 1. */
-static void blend_row(float *restrict out, const float *rear, const float *base, const build *job, size_t row, int k)
+/* Rows [begin, end) of s_front of the next level from the one before, split in the middle. */
+static void level_rows(void *context, size_t begin, size_t end, int worker)
 {
-    const int n = (int)job->n_front;
-    const double back = back_place(job, row);
-    int offset = (int)floor(back / k);
-    for (int front = 0; front < n; offset--) {
-        const double last = floor(back - (double)offset * k);
-        const int end = last >= n - 1 ? n : (int)last + 1;
-        if (end <= front)
-            continue;
-        const float *front0 = job->diagonal + 4 * job->stride * (size_t)(n + offset) + front;
-        blend_run(out + front, rear + front + offset, front0, front0 + 4 * job->stride, rear + front, base + front,
-                  job->stride, end - front, (float)((back - front - (double)offset * k) / k), (float)(1.0 / k));
-        front = end;
-    }
-    for (int c = 0; c < 4; c++)
-        out[(size_t)c * job->stride + job->n_front] = out[(size_t)c * job->stride + job->n_front - 1];
+    (void)worker;
+    const build *job = context;
+    const size_t n = job->n_front;
+    const quad *half = job->level + n * n * (job->level_now - 1);
+    quad *out = job->level + n * n * job->level_now;
+    for (size_t f = begin; f < end; f++)
+        for (size_t b = 0; b < n; b++) {
+            const size_t low = (f + b) / 2, high = (f + b + 1) / 2;
+            const quad front = 0.5f * (half[n * f + low] + half[n * f + high]);
+            const quad rear = 0.5f * (half[n * low + b] + half[n * high + b]);
+            const float opacity = half[n * f + b][3];
+            out[n * f + b] = blend(front, rear, opacity + (1 - opacity) * opacity);
+        }
 }
 
 static void incremental_rows(void *context, size_t begin, size_t end, int worker)
 {
     const build *job = context;
-    const size_t floats = 4 * job->stride;
+    const size_t n = job->n_front;
+    quad *history = job->history + n * (job->n_history + 1) * (size_t)worker - n; /* slice 1 comes first */
     for (size_t back = begin; back < end; back++) {
-        float *even = job->rows + 2 * floats * (size_t)worker, *odd = even + floats;
-        const float *base = job->first + floats * back, *rear = base;
-        store_row(job, 1, back, base);
-        for (int k = 2; k < job->options->size[2]; k++) {
-            float *out = k % 2 ? odd : even;
-            blend_row(out, rear, base, job, back, k);
-            store_row(job, (size_t)k, back, out);
-            rear = out;
+        const double place = (double)back * (double)(n - 1) / (double)(job->n_back - 1);
+        memcpy(history + n, job->first + n * back, n * sizeof *history);
+        store_row(job, 1, back, history + n);
+        size_t j = 0, power = 1; /* the front part: 2^j < k */
+        for (size_t k = 2; k < (size_t)job->options->size[2]; k++) {
+            if (k > 2 * power) {
+                power *= 2;
+                j++;
+            }
+            quad *out = history + n * (k <= job->n_history ? k : job->n_history + 1);
+            blend_row(out, job->level + n * n * j, history + n * power, history + n * (k - power), n,
+                      (double)power / (double)k, place);
+            store_row(job, k, back, out);
         }
     }
 }
@@ -166,7 +158,7 @@ static void incremental_rows(void *context, size_t begin, size_t end, int worker
 static void separate_rows(void *context, size_t begin, size_t end, int worker)
 {
     const build *job = context;
-    float *row = job->rows + 2 * 4 * job->stride * (size_t)worker;
+    quad *row = job->history + job->n_front * (job->n_history + 1) * (size_t)worker;
     for (size_t back = begin; back < end; back++)
         for (int k = 1; k < job->options->size[2]; k++) {
             const double x_back = (double)back / (double)(job->n_back - 1);
@@ -182,8 +174,7 @@ static void separate_rows(void *context, size_t begin, size_t end, int worker)
                         sum[c] += pass * part[c];
                     pass *= 1 - part[3];
                 }
-                for (int c = 0; c < 4; c++)
-                    row[(size_t)c * job->stride + front] = (float)sum[c];
+                row[front] = (quad){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]};
             }
             store_row(job, (size_t)k, back, row);
         }
@@ -194,19 +185,17 @@ static void separate_rows(void *context, size_t begin, size_t end, int worker)
 static void base_rows(void *context, size_t begin, size_t end, int worker)
 {
     build *job = context;
-    const size_t n_node = job->segments.n_node, floats = 4 * job->stride;
+    const size_t n = job->n_front, n_node = job->segments.n_node;
     double(*value)[4] = job->value + n_node * (size_t)worker;
     for (size_t front = begin; front < end; front++) {
         tc_segments_row(value, &job->error[worker], &job->segments, job->front_node[front]);
-        for (size_t i = 0; i < n_node; i++)
-            for (size_t c = 0; c < 4; c++) {
-                const float v = (float)value[i][c];
-                if (job->node_front[i] >= 0)
-                    job->diagonal[floats * (job->n_front + (size_t)job->node_front[i] - front) + c * job->stride +
-                                  front] = v;
-                if (job->node_back[i] >= 0)
-                    job->first[floats * (size_t)job->node_back[i] + c * job->stride + front] = v;
-            }
+        for (size_t i = 0; i < n_node; i++) {
+            const quad v = {(float)value[i][0], (float)value[i][1], (float)value[i][2], (float)value[i][3]};
+            if (job->node_front[i] >= 0)
+                job->level[n * front + (size_t)job->node_front[i]] = v;
+            if (job->node_back[i] >= 0)
+                job->first[n * (size_t)job->node_back[i] + front] = v;
+        }
     }
 }
 
@@ -257,21 +246,21 @@ static tc_status check(const tc_transfer *tf, const tc_table_options *options, t
 
 static tc_status allocate(build *job, int threads, tc_error *err)
 {
-    const size_t nodes = job->n_front + job->n_back, floats = 4 * job->stride;
+    const size_t nodes = job->n_front + job->n_back, row = job->n_front * sizeof(quad);
     tc_table *table = job->table;
     const size_t texel = table->format == TC_TABLE_8 ? 4 : table->format == TC_TABLE_16F ? 8 : 16;
     const size_t entries = job->n_front * job->n_back * (size_t)table->size[2]; /* at most 2^42 */
     job->node_front = tc_alloc(nodes, sizeof *job->node_front);
     job->node_back = tc_alloc(nodes, sizeof *job->node_back);
     job->front_node = tc_alloc(job->n_front, sizeof *job->front_node);
-    job->diagonal = tc_calloc(2 * job->n_front + 1, floats * sizeof *job->diagonal);
-    job->first = tc_calloc(job->n_back, floats * sizeof *job->first);
-    job->rows = tc_calloc((size_t)threads, 2 * floats * sizeof *job->rows);
+    job->level = tc_alloc(job->n_level * job->n_front, row);
+    job->first = tc_alloc(job->n_back, row);
+    job->history = tc_alloc((size_t)threads * (job->n_history + 1), row);
     job->value = tc_alloc((size_t)threads, nodes * sizeof *job->value);
     job->error = tc_calloc((size_t)threads, sizeof *job->error);
     table->rgba = tc_alloc(entries, texel);
     table->bytes = entries * texel;
-    if (!job->node_front || !job->node_back || !job->front_node || !job->diagonal || !job->first || !job->rows ||
+    if (!job->node_front || !job->node_back || !job->front_node || !job->level || !job->first || !job->history ||
         !job->value || !job->error || !table->rgba)
         return tc_fail_memory(err, "the pre-integration table", entries, texel);
     return TC_OK;
@@ -293,7 +282,10 @@ tc_status tc_table_build(tc_table *out, const tc_transfer *tf, const tc_table_op
                  .table = out,
                  .n_front = (size_t)options->size[0],
                  .n_back = (size_t)options->size[1],
-                 .stride = ((size_t)options->size[0] + 1 + 7) / 8 * 8};
+                 .n_level = 1,
+                 .n_history = 1};
+    for (; 2 * job.n_history + 1 < (size_t)options->size[2]; job.n_history *= 2)
+        job.n_level++;
     status = allocate(&job, threads, err);
     double *x = status == TC_OK ? tc_alloc(job.n_front + job.n_back, sizeof *x) : NULL;
     if (status == TC_OK && !x)
@@ -310,11 +302,8 @@ tc_status tc_table_build(tc_table *out, const tc_transfer *tf, const tc_table_op
         tc_parallel_for(job.n_back, 1, threads, separate_rows, &job);
     } else {
         tc_parallel_for(job.n_front, 4, threads, base_rows, &job);
-        for (size_t i = 0; i < job.n_back; i++) /* the margin beyond the last s_front */
-            for (size_t c = 0; c < 4; c++) {
-                float *row = job.first + 4 * job.stride * i + c * job.stride;
-                row[job.n_front] = row[job.n_front - 1];
-            }
+        for (job.level_now = 1; job.level_now < job.n_level; job.level_now++)
+            tc_parallel_for(job.n_front, 16, threads, level_rows, &job);
         tc_parallel_for(job.n_back, 4, threads, incremental_rows, &job);
     }
     for (int i = 0; i < threads; i++)
@@ -326,9 +315,9 @@ done:
     free(job.node_front);
     free(job.node_back);
     free(job.front_node);
-    free(job.diagonal);
+    free(job.level);
     free(job.first);
-    free(job.rows);
+    free(job.history);
     free(job.value);
     free(job.error);
     if (status != TC_OK)

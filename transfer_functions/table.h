@@ -26,7 +26,9 @@ typedef struct tc_table {
     double base_error; /* stated accuracy of the base slice's quadrature */
 } tc_table;
 
-/* Errors: TC_E_ARG, TC_E_MEMORY. Cost: O(size product), threaded over s_back. */
+/* Scalars outside span are not known to the table: give a span that holds the field's range as well as the knots, or clamp
+ * both ends. Errors: TC_E_ARG, TC_E_MEMORY. Cost: O(size product) time, threaded over s_back; scratch of 16 bytes times
+ * s_front * (s_front log2(length) + s_back + length/2 per thread). */
 tc_status tc_table_build(tc_table *out, const tc_transfer *tf, const tc_table_options *options, tc_error *err);
 void tc_table_finish(tc_table *table);
 

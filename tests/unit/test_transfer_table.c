@@ -161,7 +161,7 @@ static void error_accumulates_over_slices(void **state)
     const int slice[] = {1, 2, 3, 7, 20, 64, 128, 255};
     for (size_t i = 0; i < sizeof slice / sizeof *slice; i++) {
         const double worst = slice_error(&table, tf, slice[i], 9, true);
-        if (worst > 2.5e-3)
+        if (worst > 5e-4)
             fail_msg("slice %d of 255 is off by %g", slice[i], worst);
     }
     tc_table_finish(&table);
@@ -179,7 +179,7 @@ static void error_does_not_shrink_with_the_grid(void **state)
         worst[i] = slice_error(&table, tf, 63, i == 0 ? 1 : 4, true);
         tc_table_finish(&table);
     }
-    assert_true(worst[1] < worst[0] / 3);
+    assert_true(worst[1] < worst[0] / 4);
     tc_transfer_destroy(&tf);
 }
 
@@ -222,7 +222,7 @@ static void constant_extinction_misses_beers_law(void **state)
             assert_float_equal(lookup(&table, f, b, l, 1), 0.6 * alpha, 5e-4);
         }
         for (int k = 0; k < 256; k++)
-            assert_float_equal(entry(&table, 17, 99, k)[3], 1 - exp(-taus[i] * 2 * k / 255.0), 1e-5);
+            assert_float_equal(entry(&table, 17, 99, k)[3], 1 - exp(-taus[i] * 2 * k / 255.0), 5e-7);
         tc_table_finish(&table);
         tc_transfer_destroy(&tf);
     }
@@ -264,7 +264,7 @@ static void two_halves_differ_from_the_whole(void **state)
                 const float *whole = entry(&table, f, b, k), *near = entry(&table, f, (f + b) / 2, k / 2),
                             *far = entry(&table, (f + b) / 2, b, k / 2);
                 for (int c = 0; c < 4; c++)
-                    assert_float_equal(near[c] + (1 - near[3]) * far[c], whole[c], 2e-3);
+                    assert_float_equal(near[c] + (1 - near[3]) * far[c], whole[c], 3e-4);
             }
     tc_table_finish(&table);
     tc_transfer_destroy(&tf);
@@ -282,7 +282,7 @@ static void axes_of_different_size_are_mixed_up(void **state)
         assert_true(slice_error(&table, tf, 1, 1, true) < 2e-6);
         if (size[i][0] > 30)
             assert_true(slice_error(&table, tf, size[i][2] - 1, size[i][0] > 100 || size[i][1] > 100 ? 3 : 1, true) <
-                        8e-3);
+                        2e-3);
         tc_table_finish(&table);
     }
     tc_transfer_destroy(&tf);
