@@ -274,7 +274,7 @@ static void axes_of_different_size_are_mixed_up(void **state)
 {
     (void)state;
     tc_transfer *tf = make(smooth, 3);
-    const int size[][3] = {{101, 40, 30}, {40, 101, 30}, {2, 129, 3}, {129, 2, 9}, {64, 65, 2}, {2, 2, 2}};
+    const int size[][3] = {{101, 40, 30}, {41, 101, 30}, {2, 129, 3}, {129, 2, 9}, {64, 65, 2}, {2, 2, 2}};
     for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
         tc_table_options options = {.span = {0, 1}, .length_max = 3, .format = TC_TABLE_32F, .threads = 2};
         memcpy(options.size, size[i], sizeof options.size);
