@@ -113,6 +113,9 @@ void count_cells(Gathered &out, const std::string &path)
                 const vtkIdType *id;
                 grid->GetCells()->GetCellAtId((vtkIdType)c, m, id);
                 check_cell(path, leaf.first_cell + c, type, m, id, n_point);
+                if (vtk == 0 && m > 0)
+                    throw Refusal(path + ": cell " + std::to_string(leaf.first_cell + c) + " has " + std::to_string(m) +
+                                  " points but no type; the file is damaged or cut short");
             }
         }
     }

@@ -1,6 +1,8 @@
 // load_cases.cpp: formats of solvers: Exodus II, EnSight, OpenFOAM, CGNS.
 #include "load.h"
 
+#include "netcdf_extent.h"
+
 #include <vtkCGNSReader.h>
 #include <vtkExodusIIReader.h>
 #include <vtkGenericEnSightReader.h>
@@ -232,6 +234,9 @@ std::unique_ptr<Reader> make_case_reader(const std::string &path, const tc_sniff
     };
     switch (sniffed.format) {
     case TC_FORMAT_EXODUS: {
+        tc_error err;
+        if (tc_netcdf_check_extent(path.c_str(), &err) != TC_OK)
+            throw Refusal(err.text);
         auto made = std::make_unique<ExodusReader>();
         made->reader->SetFileName(path.c_str());
         return finish(std::move(made), "Exodus II");

@@ -239,6 +239,8 @@ tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_options *o
         status = tc_worker_start(&worker, "tetcast-read", &limits, err);
     if (!status)
         status = tc_worker_call(&reply, worker, request, NULL, 0, log, err);
+    if (status == TC_E_WORKER && worker)
+        tc_fail_prefix(err, status, "%s could not be read, it is probably damaged: ", path);
     if (!status)
         status = make_mesh(&mesh, &reply, err);
     if (!status)

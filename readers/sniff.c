@@ -86,6 +86,9 @@ static tc_status sniff_vtk_xml(tc_sniffed *out, const char *path, const char *te
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(kind, known[i]) == 0)
             return found(out, TC_FORMAT_VTK_XML, kind);
+    if (!kind[0])
+        return tc_fail(err, TC_E_FILE,
+                       "%s is a VTK XML file that ends or breaks in its first tag; write or fetch it again", path);
     if (strcmp(kind, "PolyData") == 0 || strcmp(kind, "PPolyData") == 0)
         return tc_fail(err, TC_E_FILE, "%s holds a surface (VTK PolyData), not a volume: it has no 3-D cells to render",
                        path);
@@ -238,6 +241,12 @@ static tc_status sniff_name(tc_sniffed *out, const char *path, const unsigned ch
     tc_plot3d_layout layout;
     if (tc_plot3d_layout_of(&layout, path, NULL) == TC_OK && layout.kind != TC_PLOT3D_NONE)
         return found(out, TC_FORMAT_PLOT3D, "");
+    const char *slash = strrchr(path, '/');
+    if (strstr(slash ? slash : path, "xyz") || tc_sniff_ends(path, ".p3d") || tc_sniff_ends(path, ".x") ||
+        tc_sniff_ends(path, ".q"))
+        return tc_fail(err, TC_E_FILE,
+                       "%s is named like PLOT3D, but its size fits no binary 3-D layout; it is cut short, 2-D or text",
+                       path);
     tc_status status = tc_sniff_foreign(path, head, n, true, err);
     if (status)
         return status;

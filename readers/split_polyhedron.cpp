@@ -240,8 +240,15 @@ bool cone_from_vertex(Body &body)
 }
 
 // Cuts a convex solid, given by its polygons, with the half-space dot(normal, x) <= offset.
-void clip(std::vector<std::vector<Vec>> &solid, const Vec &normal, double offset)
+void clip(std::vector<std::vector<Vec>> &solid, const Vec &normal, double offset, double tolerance)
 {
+    // Planes that cut nothing off leave the solid as it is, and with it the number of its points.
+    bool cuts = false;
+    for (const std::vector<Vec> &polygon : solid)
+        for (const Vec &p : polygon)
+            cuts = cuts || dot(normal, p) - offset > tolerance;
+    if (!cuts)
+        return;
     std::vector<std::vector<Vec>> result;
     std::vector<Vec> rim;
     for (const std::vector<Vec> &polygon : solid) {
@@ -272,6 +279,7 @@ void clip(std::vector<std::vector<Vec>> &solid, const Vec &normal, double offset
             return std::atan2(dot(w, a - centre), dot(u, a - centre)) <
                    std::atan2(dot(w, b - centre), dot(u, b - centre));
         });
+        rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
         result.push_back(rim);
     }
     solid.swap(result);
@@ -310,7 +318,8 @@ bool kernel_point(Vec &out, const Body &body)
     for (const Triangle &t : body.surface) {
         const Vec normal = cross(body.x[t[1]] - body.x[t[0]], body.x[t[2]] - body.x[t[0]]);
         if (length(normal) > 0)
-            clip(solid, (1.0 / length(normal)) * normal, dot(normal, body.x[t[0]]) / length(normal));
+            clip(solid, (1.0 / length(normal)) * normal, dot(normal, body.x[t[0]]) / length(normal),
+                 1e-12 * length(high - low));
     }
     if (solid.empty())
         return false;
@@ -339,14 +348,59 @@ bool cone_from_kernel(Body &body)
 
 // ------------------------------------------------------------------------------------------------ ears
 
-// Does the open segment pq meet the triangle abc, or come within rounding of it? They share no vertex.
+// The coordinate planes that an almost flat figure is looked at in: without the largest component of its normal.
+struct Flat {
+    int u, v;
+    explicit Flat(const Vec &normal)
+    {
+        const double n[3] = {std::fabs(normal[0]), std::fabs(normal[1]), std::fabs(normal[2])};
+        const int drop = n[0] >= n[1] && n[0] >= n[2] ? 0 : n[1] >= n[2] ? 1 : 2;
+        u = (drop + 1) % 3;
+        v = (drop + 2) % 3;
+    }
+    double turn(const Vec &a, const Vec &b, const Vec &c) const
+    {
+        return (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
+    }
+    bool cross(const Vec &p, const Vec &q, const Vec &a, const Vec &b) const
+    {
+        const double pa = turn(p, q, a), pb = turn(p, q, b), ap = turn(a, b, p), aq = turn(a, b, q);
+        if (pa == 0 && pb == 0 && ap == 0 && aq == 0) { // on one line: do they overlap?
+            const int k = std::fabs(q[u] - p[u]) > std::fabs(q[v] - p[v]) ? u : v;
+            return std::max(std::min(p[k], q[k]), std::min(a[k], b[k])) <=
+                   std::min(std::max(p[k], q[k]), std::max(a[k], b[k]));
+        }
+        return pa * pb <= 0 && ap * aq <= 0;
+    }
+    bool inside(const Vec &p, const Vec &a, const Vec &b, const Vec &c) const
+    {
+        const double s0 = turn(a, b, p), s1 = turn(b, c, p), s2 = turn(c, a, p);
+        return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
+    }
+};
+
+// Does the segment pq meet the triangle abc, or come within rounding of it? They share no vertex.
 bool segment_meets(const Vec &p, const Vec &q, const Vec &a, const Vec &b, const Vec &c, double slack)
 {
     const double vp = volume6(a, b, c, p), vq = volume6(a, b, c, q);
     if ((vp > slack && vq > slack) || (vp < -slack && vq < -slack))
         return false;
+    if (std::fabs(vp) <= slack && std::fabs(vq) <= slack) {
+        const Flat flat(cross(b - a, c - a));
+        return flat.inside(p, a, b, c) || flat.cross(p, q, a, b) || flat.cross(p, q, b, c) || flat.cross(p, q, c, a);
+    }
     const double s0 = volume6(p, q, a, b), s1 = volume6(p, q, b, c), s2 = volume6(p, q, c, a);
     return (s0 >= -slack && s1 >= -slack && s2 >= -slack) || (s0 <= slack && s1 <= slack && s2 <= slack);
+}
+
+// Does the segment from p to q run along the triangle (p, a, b), in its plane and between its sides?
+bool segment_runs_in(const Vec &p, const Vec &q, const Vec &a, const Vec &b, double slack)
+{
+    if (std::fabs(volume6(p, a, b, q)) > slack)
+        return false;
+    const Flat flat(cross(a - p, b - p));
+    const double whole = flat.turn(p, a, b), from_a = flat.turn(p, a, q), to_b = flat.turn(p, q, b);
+    return whole > 0 ? from_a >= 0 && to_b >= 0 : from_a <= 0 && to_b <= 0;
 }
 
 struct Ear {
@@ -373,8 +427,14 @@ bool ear_is_free(const Body &body, const Ear &ear)
                 volume6(a, c, d, y) <= slack)
                 return false;
         }
-        if (!has(t, v[2]) && !has(t, v[3]) && segment_meets(c, d, body.x[t[0]], body.x[t[1]], body.x[t[2]], slack))
+        const bool at_c = has(t, v[2]), at_d = has(t, v[3]);
+        if (!at_c && !at_d && segment_meets(c, d, body.x[t[0]], body.x[t[1]], body.x[t[2]], slack))
             return false;
+        const bool own = has(t, v[0]) && has(t, v[1]);
+        for (int k = 0; k < 3 && (at_c || at_d) && !own; k++)
+            if ((t[k] == v[2] && segment_runs_in(c, d, body.x[t[(k + 1) % 3]], body.x[t[(k + 2) % 3]], slack)) ||
+                (t[k] == v[3] && segment_runs_in(d, c, body.x[t[(k + 1) % 3]], body.x[t[(k + 2) % 3]], slack)))
+                return false;
         for (int k = 0; k < 3; k++) {
             const int p = t[k], q = t[(k + 1) % 3];
             const bool own_p = p == v[0] || p == v[1] || p == v[2] || p == v[3];
@@ -539,7 +599,7 @@ PolyhedronResult split_polyhedron(PolyhedronTets &out, const Polyhedron &in)
     if (!(std::fabs(volume) <= diagonal * diagonal * diagonal * 100)) // NaN coordinates
         return PolyhedronResult::failed;
     whole.size3 = std::fabs(volume);
-    constexpr unsigned attempts = 12;
+    constexpr unsigned attempts = 48;
     for (unsigned order = 0; order < attempts; order++) {
         Body body = whole;
         if (!peel(body, order) || std::fabs(tets_volume6(body) - volume) > 1e-8 * std::fabs(volume))

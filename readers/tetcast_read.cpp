@@ -97,7 +97,8 @@ void require_solid(const std::string &path, const Gathered &data)
     std::string kinds;
     for (const auto &entry : data.by_type)
         kinds += (kinds.empty() ? "" : ", ") + std::to_string(entry.second) + " " + cell_type(entry.first).name;
-    throw Refusal(path + " has no 3-D cells to render; it holds " + (kinds.empty() ? "no cells" : kinds));
+    throw Refusal(path + " has no 3-D cells to render; it holds " +
+                  (kinds.empty() ? "no cells at all (is it cut short?)" : kinds));
 }
 
 void note_split(std::vector<std::string> &notes, const Gathered &data, const Tets &tets, int refine)
@@ -145,6 +146,9 @@ void read(tc_serve *serve, json_t *json)
         if (!chosen.none && o.name == chosen.name && o.association == chosen.association && o.blocks_without > 0)
             loaded.notes.push_back("array \"" + o.name + "\" is missing in " + std::to_string(o.blocks_without) +
                                    " of " + std::to_string(data.leaf.size()) + " blocks; there it is NaN");
+    if (tets.tet.empty())
+        throw Refusal(request.path + ": none of its " + std::to_string(data.n_solid) +
+                      " 3-D cells has a volume: they are collapsed, or polyhedra that are not closed");
     const std::vector<int32_t> used = compact_points(tets);
 
     talk.progress("field", -1);

@@ -6,6 +6,7 @@
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -67,6 +68,7 @@ void on_progress(vtkObject *caller, unsigned long, void *talk, void *)
 
 VtkTalk::VtkTalk(tc_serve *to) : serve(to)
 {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
     vtkNew<Window> window;
     window->talk = this;
     vtkOutputWindow::SetInstance(window);
@@ -95,7 +97,11 @@ void VtkTalk::check(const std::string &path, const std::string &format)
 {
     if (errors.empty())
         return;
-    const std::string first = errors.front();
+    // The pipeline's "Algorithm … returned failure" only repeats that something failed.
+    std::string first = "the reader gave up without saying why";
+    for (size_t i = errors.size(); i-- > 0;)
+        if (errors[i].compare(0, 10, "Algorithm ") != 0)
+            first = errors[i];
     errors.clear();
     throw Refusal(path + " could not be read as " + format + ": " + first +
                   "; the file is damaged or cut short, write or fetch it again");
