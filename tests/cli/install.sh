@@ -11,7 +11,7 @@ TETCAST=$work/moved/bin/tetcast
 
 run 0 --version
 run 0 synth heatsink --cells 2000 -o sink.vtu
-run 0 render sink.vtu --size 16x16 -o a.png # needs all three helpers
+run 0 render sink.vtu --size 16x16 --reentry convexify -o a.png # needs all three helpers
 there a.png
 
 if [ "${TC_SANITIZE:-OFF}" = ON ]; then
