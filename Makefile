@@ -49,8 +49,8 @@ configure:
 	fi
 
 demo: all
-	$(BUILD)/tetcast render synth:heatsink --size 1024x768 --azimuth 35 --elevation 25 --background 1,1,1 \
-		--unit-distance 0.05 -o $(BUILD)/demo.png
+	$(BUILD)/tetcast render synth:heatsink --size 1024x768 --azimuth 30 --elevation 28 --color-map Turbo \
+		--opacity 12:0.5,75:8 --background 1,1,1 --verify 1024 -o $(BUILD)/demo.png
 	@echo "The picture is $(BUILD)/demo.png"
 
 test: configure
