@@ -58,7 +58,8 @@ static tc_status sniff_vtk_xml(tc_sniffed *out, const char *path, const char *te
     const char *end = strchr(tag, '>');
     const char *type = strstr(tag, "type");
     if (!type || (end && type > end))
-        return tc_fail(err, TC_E_FILE, "%s is a VTK XML file whose VTKFile tag has no type; write it again", path);
+        return tc_fail(err, TC_E_FILE,
+                       "%s is a VTK XML file that ends or breaks in its first tag; write or fetch it again", path);
     type += 4;
     while (isspace((unsigned char)*type) || *type == '=')
         type++;

@@ -103,6 +103,8 @@ void VtkTalk::check(const std::string &path, const std::string &format)
         if (errors[i].compare(0, 10, "Algorithm ") != 0)
             first = errors[i];
     errors.clear();
+    if (first.find("may be too short") != std::string::npos)
+        first += " (or holds nan or inf as text, which VTK does not read)";
     throw Refusal(path + " could not be read as " + format + ": " + first +
                   "; the file is damaged or cut short, write or fetch it again");
 }

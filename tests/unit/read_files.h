@@ -20,7 +20,7 @@ typedef struct grid {
     bool polyhedra;
 } grid;
 
-static int add_point(grid *g, double x, double y, double z)
+static inline int add_point(grid *g, double x, double y, double z)
 {
     g->point[g->n_point][0] = x;
     g->point[g->n_point][1] = y;
@@ -28,7 +28,7 @@ static int add_point(grid *g, double x, double y, double z)
     return g->n_point++;
 }
 
-static void add_cell(grid *g, int type, int n, const int *id)
+static inline void add_cell(grid *g, int type, int n, const int *id)
 {
     g->type[g->n_cell] = type;
     g->first[g->n_cell] = g->n_id;
@@ -39,7 +39,7 @@ static void add_cell(grid *g, int type, int n, const int *id)
 }
 
 /* stream: number of faces, then of each its size and point numbers. */
-static void add_polyhedron(grid *g, const int *stream)
+static inline void add_polyhedron(grid *g, const int *stream)
 {
     int id[256], n = 0, length = 1;
     for (int f = 0; f < stream[0]; f++) {
@@ -61,7 +61,7 @@ static void add_polyhedron(grid *g, const int *stream)
 }
 
 /* A path of this process in the build folder. */
-static const char *scratch(const char *name)
+static inline const char *scratch(const char *name)
 {
     static char path[4][512];
     static int turn;
@@ -79,7 +79,7 @@ static inline void write_text(const char *path, const char *text)
 }
 
 /* Writes g as a VTU in text. point_data, cell_data: DataArray elements, or "". */
-static void write_vtu(const char *path, const grid *g, const char *point_data, const char *cell_data)
+static inline void write_vtu(const char *path, const grid *g, const char *point_data, const char *cell_data)
 {
     FILE *f = fopen(path, "wb");
     assert_non_null(f);
@@ -114,7 +114,7 @@ static void write_vtu(const char *path, const grid *g, const char *point_data, c
 }
 
 /* Reads path; fails the test with the reader's sentence. */
-static tc_mesh *read_path(const char *path, const tc_read_options *options)
+static inline tc_mesh *read_path(const char *path, const tc_read_options *options)
 {
     tc_mesh *mesh = NULL;
     tc_error err = {0};
@@ -144,7 +144,7 @@ static inline const char *refusal_of(const char *path, const tc_read_options *op
     return err.text;
 }
 
-static double tet_volume(const tc_mesh *m, size_t t)
+static inline double tet_volume(const tc_mesh *m, size_t t)
 {
     const double *p[4];
     double u[3][3];
@@ -159,7 +159,7 @@ static double tet_volume(const tc_mesh *m, size_t t)
 }
 
 /* Sum over the tets, none of which may be negative. */
-static double mesh_volume(const tc_mesh *m)
+static inline double mesh_volume(const tc_mesh *m)
 {
     double sum = 0;
     for (size_t t = 0; t < m->n_tet; t++) {
@@ -170,7 +170,7 @@ static double mesh_volume(const tc_mesh *m)
     return sum;
 }
 
-static bool has_note(const tc_mesh *m, const char *part)
+static inline bool has_note(const tc_mesh *m, const char *part)
 {
     for (size_t i = 0; i < m->source->n_note; i++)
         if (strstr(m->source->note[i], part))
