@@ -164,6 +164,9 @@ static void tc_render_summary(const tc_render_run *run, tc_talk *talk)
 {
     const tc_render_stats *stats = &run->first;
     char frame[48] = "";
+    if (run->report.reentry == TC_REENTRY_PEEL && *run->report.reentry_why &&
+        !talk->verbose) /* verbose: said already */
+        tc_talk_say(talk, "rays cross the mesh's gaps by peeling: %s", run->report.reentry_why);
     if (isfinite(run->frame.median))
         snprintf(frame, sizeof frame, ", frame %.1f ms", run->frame.median);
     tc_talk_say(talk, "%zu tets, %zu imaginary; %s%s%s%s%s%s; wrote %s", run->report.n_tet, run->report.n_imaginary,

@@ -10,6 +10,12 @@ says "wrote ball.png"
 there ball.png
 [ "$(head -c 4 ball.png | tail -c 3)" = PNG ] || fail "ball.png is no PNG"
 
+# The picture says how to make it again.
+for key in command camera transfer_function version; do
+    grep -a -q "tetcast:$key" ball.png || fail "ball.png carries no tetcast:$key"
+done
+grep -a -q "tetcast render synth:ball:3000 --size 32x24" ball.png || fail "ball.png does not carry its command line"
+
 # -o - is a PNG on stdout and nothing else.
 run 0 render $ball -o -
 [ "$(head -c 4 out | tail -c 3)" = PNG ] || fail "stdout is no PNG"
@@ -60,6 +66,29 @@ run 0 render $ball -o f.png --quiet --zoom 0.0001
 says "the picture is empty"
 run 0 render $ball -o f.png
 says_not "empty"
+
+# A mesh whose gaps cannot be filled is peeled, and that is said: three tets on one face.
+cat >fan.vtk <<'VTK'
+# vtk DataFile Version 3.0
+three cells on one face
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 6 double
+0 0 0  1 0 0  0 1 0  0.2 0.2 1  0.2 0.2 -1  0.9 0.9 1
+CELLS 3 15
+4 0 1 2 3
+4 0 1 2 4
+4 0 1 2 5
+CELL_TYPES 3
+10 10 10
+POINT_DATA 6
+SCALARS heat double 1
+LOOKUP_TABLE default
+0 1 2 3 4 5
+VTK
+run 0 render fan.vtk --size 16x16 -o fan.png
+says "by peeling"
+there fan.png
 
 # Inputs that fail say so, name the file and write nothing.
 run 1 render no-such-file.vtu
