@@ -439,10 +439,15 @@ bool ear_is_free(const Body &body, const Ear &ear)
             const int p = t[k], q = t[(k + 1) % 3];
             const bool own_p = p == v[0] || p == v[1] || p == v[2] || p == v[3];
             const bool own_q = q == v[0] || q == v[1] || q == v[2] || q == v[3];
-            if (own_p || own_q)
+            if (own_p && own_q)
                 continue;
-            if (segment_meets(body.x[p], body.x[q], c, d, a, slack) ||
-                segment_meets(body.x[p], body.x[q], c, d, b, slack))
+            // An edge that starts at one end of the ear's edge may leave through the new face opposite to it.
+            const Vec &x = body.x[p], &y = body.x[q];
+            if (p != v[0] && q != v[0] && p != v[2] && q != v[2] && p != v[3] && q != v[3] &&
+                segment_meets(x, y, c, d, a, slack))
+                return false;
+            if (p != v[1] && q != v[1] && p != v[2] && q != v[2] && p != v[3] && q != v[3] &&
+                segment_meets(x, y, c, d, b, slack))
                 return false;
         }
     }
@@ -534,6 +539,26 @@ bool remove_tip(Body &body)
                 volume6(a, c, b, y) <= slack)
                 free = false;
         }
+        const int base[3] = {p, q, third};
+        for (const Triangle &s : body.surface)
+            for (int k = 0; k < 3 && free && !has(s, tip); k++) {
+                const int from = s[k], to = s[(k + 1) % 3];
+                int own_from = -1, own_to = -1;
+                for (int e = 0; e < 3; e++) {
+                    own_from = base[e] == from ? e : own_from;
+                    own_to = base[e] == to ? e : own_to;
+                }
+                const double slack = 1e-11 * body.size3;
+                const Vec &x = body.x[from], &y = body.x[to];
+                if (own_from < 0 && own_to < 0)
+                    free = !segment_meets(x, y, body.x[p], body.x[q], body.x[third], slack);
+                else if (own_from >= 0 && own_to < 0)
+                    free = !segment_runs_in(x, y, body.x[base[(own_from + 1) % 3]], body.x[base[(own_from + 2) % 3]],
+                                            slack);
+                else if (own_from < 0)
+                    free =
+                        !segment_runs_in(y, x, body.x[base[(own_to + 1) % 3]], body.x[base[(own_to + 2) % 3]], slack);
+            }
         const auto flat = [&](const Triangle &s) { return has(s, p) && has(s, q) && has(s, third); };
         if (!free || std::any_of(body.surface.begin(), body.surface.end(), flat))
             continue;
@@ -547,8 +572,103 @@ bool remove_tip(Body &body)
     return false;
 }
 
+// How far the surface is from x along direction (not counting what is at x itself); infinite when it is not hit.
+double clearance(const Body &body, const Vec &x, const Vec &direction, size_t own)
+{
+    double nearest = HUGE_VAL;
+    for (size_t i = 0; i < body.surface.size(); i++) {
+        const Triangle &t = body.surface[i];
+        const Vec &a = body.x[t[0]], &b = body.x[t[1]], &c = body.x[t[2]];
+        const Vec normal = cross(b - a, c - a);
+        const double along = dot(direction, normal);
+        if (i == own || along == 0)
+            continue;
+        const double s = dot(a - x, normal) / along;
+        const Vec y = x + s * direction;
+        if (s > 0 && s < nearest && inside_ear(a, b, c, y, normal))
+            nearest = s;
+    }
+    return nearest;
+}
+
+// May the tet of triangle t and the point p (the last in body.x) be filled? Its edges must not meet the surface, no
+// vertex may lie in it, no edge may come through its new faces.
+bool roof_is_free(const Body &body, const Triangle &t, int p)
+{
+    const Vec &a = body.x[t[0]], &b = body.x[t[1]], &c = body.x[t[2]], &top = body.x[p];
+    const double slack = 1e-11 * body.size3;
+    for (const Triangle &s : body.surface) {
+        for (int k = 0; k < 3; k++) {
+            const int v = s[k], w = s[(k + 1) % 3];
+            if (!has(s, t[k]) && segment_meets(top, body.x[t[k]], body.x[s[0]], body.x[s[1]], body.x[s[2]], slack))
+                return false;
+            if (has(t, v) && has(t, w))
+                continue;
+            for (int e = 0; e < 3; e++) { // from a corner of t through the face opposite to it
+                const int far = t[e] == v ? w : t[e] == w ? v : -1;
+                if (far >= 0 && segment_meets(body.x[t[e]], body.x[far], top, body.x[t[(e + 1) % 3]],
+                                              body.x[t[(e + 2) % 3]], slack))
+                    return false;
+            }
+            if (has(t, v))
+                continue;
+            const Vec &y = body.x[v];
+            if (volume6(a, b, c, y) <= slack && volume6(a, b, top, y) >= -slack && volume6(b, c, top, y) >= -slack &&
+                volume6(c, a, top, y) >= -slack)
+                return false;
+            for (int e = 0; e < 3 && !has(t, w); e++)
+                if (segment_meets(y, body.x[w], top, body.x[t[e]], body.x[t[(e + 1) % 3]], slack))
+                    return false;
+        }
+    }
+    return true;
+}
+
+// When no ear is free: a point inside, put where it sees most of the surface, takes one triangle's place.
+bool add_roof(Body &body)
+{
+    size_t best = body.surface.size(), best_seen = 0;
+    Vec best_point = {0, 0, 0};
+    for (size_t i = 0; i < body.surface.size(); i++) {
+        const Triangle t = body.surface[i];
+        const Vec normal = cross(body.x[t[1]] - body.x[t[0]], body.x[t[2]] - body.x[t[0]]);
+        if (!(length(normal) > 0))
+            continue;
+        const Vec centre = (1.0 / 3) * (body.x[t[0]] + body.x[t[1]] + body.x[t[2]]);
+        const Vec inwards = (-1.0 / length(normal)) * normal;
+        const double room = clearance(body, centre, inwards, i);
+        for (double part : {0.5, 0.25, 0.1}) {
+            const Vec p = centre + (part * room) * inwards;
+            size_t seen = 0;
+            for (const Triangle &s : body.surface)
+                seen += cone_volume(body, p, s) > 0;
+            if (!(room < HUGE_VAL) || seen <= best_seen)
+                continue;
+            body.x.push_back(p);
+            if (cone_volume(body, p, t) > 1e-10 * body.size3 && roof_is_free(body, t, (int)body.x.size() - 1)) {
+                best = i;
+                best_seen = seen;
+                best_point = p;
+            }
+            body.x.pop_back();
+        }
+    }
+    if (best == body.surface.size())
+        return false;
+    const Triangle t = body.surface[best];
+    const int p = (int)body.x.size();
+    body.x.push_back(best_point);
+    body.surface.erase(body.surface.begin() + (std::ptrdiff_t)best);
+    for (int k = 0; k < 3; k++)
+        body.surface.push_back({t[k], t[(k + 1) % 3], p});
+    body.tet.push_back({p, t[0], t[1], t[2]});
+    return true;
+}
+
 bool peel(Body &body, unsigned order)
 {
+    constexpr int most_roofs = 4;
+    int roofs = 0;
     while (!body.surface.empty()) {
         if (cone_from_vertex(body) || cone_from_kernel(body))
             return true;
@@ -562,7 +682,7 @@ bool peel(Body &body, unsigned order)
                 break;
             }
         }
-        if (!cut)
+        if (!cut && (roofs++ == most_roofs || !add_roof(body)))
             return false;
     }
     return true;

@@ -304,11 +304,14 @@ static void test_polyhedra_that_are_not_convex_are_filled_wrong(void **state)
     static const double dart[][2] = {{0, 0}, {2, 0}, {0.6, 0.6}, {0, 2}};
     static const double ell[][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
     static const double you[][2] = {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
+    static const double comb[][2] = {{0, 0}, {5, 0}, {5, 2}, {4, 2}, {4, 1}, {3, 1},
+                                     {3, 2}, {2, 2}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
     static const double spiral[][2] = {{0, 0}, {5, 0}, {5, 5}, {1, 5}, {1, 2}, {3, 2},
                                        {3, 3}, {2, 3}, {2, 4}, {4, 4}, {4, 1}, {0, 1}};
     check_prisms(dart, 4, 1.2);
     check_prisms(ell, 6, 5);
     check_prisms(you, 8, 7);
+    check_prisms(comb, 12, 8);
     check_prisms(spiral, 12, 15);
 }
 
