@@ -186,22 +186,38 @@ tc_status tc_sniff_head(tc_sniffed *out, const char *path, const unsigned char *
                 path);
         return found(out, TC_FORMAT_ENSIGHT, "");
     }
-    if (strstr(text, "FoamFile"))
-        return found(out, TC_FORMAT_OPENFOAM, "");
+    if (strstr(text, "FoamFile")) {
+        if (tc_sniff_ends(path, "controlDict"))
+            return found(out, TC_FORMAT_OPENFOAM, "");
+        return tc_fail(err, TC_E_FILE, "%s is one file of an OpenFOAM case; give the folder of the case", path);
+    }
     return tc_sniff_foreign(path, head, n, false, err);
 }
 
-static bool is_case_folder(const char *folder)
+/* Is there a file or folder of this name in folder? */
+static bool holds(const char *folder, const char *name)
 {
-    static const char *const inside[] = {"constant/polyMesh", "system/controlDict", "processor0/constant/polyMesh"};
     struct stat st;
     char path[4096];
-    for (size_t i = 0; i < sizeof inside / sizeof *inside; i++) {
-        const int n = snprintf(path, sizeof path, "%s/%s", folder, inside[i]);
-        if (n > 0 && (size_t)n < sizeof path && stat(path, &st) == 0)
-            return true;
-    }
-    return false;
+    const int n = snprintf(path, sizeof path, "%s/%s", folder, name);
+    return n > 0 && (size_t)n < sizeof path && stat(path, &st) == 0;
+}
+
+static tc_status sniff_case_folder(tc_sniffed *out, const char *path, const char *folder, tc_error *err)
+{
+    if (holds(folder, "constant/polyMesh"))
+        return found(out, TC_FORMAT_OPENFOAM, "");
+    if (holds(folder, "processor0"))
+        return tc_fail(
+            err, TC_E_FILE,
+            "%s is an OpenFOAM case that was decomposed for parallel runs, which is not read; put it together "
+            "first: reconstructPar",
+            path);
+    if (holds(folder, "system/controlDict"))
+        return tc_fail(err, TC_E_FILE,
+                       "%s is an OpenFOAM case without a mesh (constant/polyMesh); make it first: blockMesh", path);
+    return tc_fail(err, TC_E_FILE, "%s is not in an OpenFOAM case: there is no constant/polyMesh in %s; give a file",
+                   path, folder);
 }
 
 /* The folder that holds path. */
@@ -229,13 +245,7 @@ static tc_status sniff_name(tc_sniffed *out, const char *path, const unsigned ch
     if (tc_sniff_ends(path, ".foam") || tc_sniff_ends(path, ".OpenFOAM")) {
         char folder[4096];
         folder_of(folder, sizeof folder, path);
-        if (is_case_folder(folder))
-            return found(out, TC_FORMAT_OPENFOAM, "");
-        return tc_fail(
-            err, TC_E_FILE,
-            "%s does not lie in an OpenFOAM case: there is no constant/polyMesh and no system/controlDict beside "
-            "it",
-            path);
+        return sniff_case_folder(out, path, folder, err);
     }
     if (n == 0)
         return tc_fail(err, TC_E_FILE, "%s is empty", path);
@@ -268,13 +278,8 @@ tc_status tc_sniff_file(tc_sniffed *out, const char *path, tc_error *err)
     struct stat st;
     if (stat(path, &st) != 0)
         return tc_fail(err, TC_E_FILE, "%s cannot be opened: %s", path, strerror(errno));
-    if (S_ISDIR(st.st_mode)) {
-        if (is_case_folder(path))
-            return found(out, TC_FORMAT_OPENFOAM, "");
-        return tc_fail(err, TC_E_FILE,
-                       "%s is a folder but not an OpenFOAM case (it has no constant/polyMesh); give a file in it",
-                       path);
-    }
+    if (S_ISDIR(st.st_mode))
+        return sniff_case_folder(out, path, path, err);
     if (!S_ISREG(st.st_mode))
         return tc_fail(err, TC_E_FILE, "%s is not a file; save the data to a file first", path);
     FILE *file = fopen(path, "rb");

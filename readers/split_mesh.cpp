@@ -21,7 +21,7 @@ namespace tetcast
 namespace
 {
 
-constexpr size_t progress_every = 1 << 15;
+constexpr size_t progress_every = 1 << 12;
 
 void split_face_stream(Tets &out, const Leaf &leaf, vtkUnstructuredGrid *grid, size_t c)
 {

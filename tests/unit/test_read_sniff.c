@@ -41,7 +41,7 @@ static void test_content_is_told_by_name(void **state)
     check_format("a.vtu", HEAD("@(#)ADF Database Version A02011>"), TC_FORMAT_CGNS, "ADF");
     check_format("a.txt", HEAD("{ \"file-series-version\" : \"1.0\" }"), TC_FORMAT_SERIES, "");
     check_format("a.txt", HEAD("# c\nFORMAT\ntype: ensight gold\nGEOMETRY\nmodel: a.geo\n"), TC_FORMAT_ENSIGHT, "");
-    check_format("a.txt", HEAD("FoamFile\n{\n    version 2.0;\n"), TC_FORMAT_OPENFOAM, "");
+    check_format("controlDict", HEAD("FoamFile\n{\n    version 2.0;\n"), TC_FORMAT_OPENFOAM, "");
     check_format("a.bin", HEAD("\001\002\003\004"), TC_FORMAT_UNKNOWN, "");
 }
 
@@ -80,10 +80,11 @@ static void test_foreign_formats_name_no_way_out(void **state)
     check_refusal("a.sos", "FORMAT\ntype: master_server gold\nSERVERS\n# ensight\n", ".case");
     check_refusal("a.unheard", "lorem ipsum", "known here");
     check_refusal("a.foam", "", "constant/polyMesh");
+    check_refusal("U", "FoamFile\n{\n    version 2.0;\n", "folder of the case");
     tc_sniffed s;
     tc_error err;
     assert_int_equal(tc_sniff_file(&s, TC_BUILD_DIR, &err), TC_E_FILE);
-    assert_non_null(strstr(err.text, "folder"));
+    assert_non_null(strstr(err.text, "constant/polyMesh"));
     assert_int_equal(tc_sniff_file(&s, "/dev/null", &err), TC_E_FILE);
     assert_int_equal(tc_sniff_file(&s, "/nowhere/at/all", &err), TC_E_FILE);
 }
