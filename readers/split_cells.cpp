@@ -182,6 +182,9 @@ PolyhedronResult fill(Tets &out, int64_t cell_id, const std::vector<std::vector<
         if (local.size() >= 3)
             poly.face.push_back(local);
     }
+    // A mesh full of broken cells must not cost minutes.
+    if (out.folded_cells + out.refused_cells > 256)
+        poly.attempts = 1;
     PolyhedronTets filled;
     const PolyhedronResult result = split_polyhedron(filled, poly);
     if (result == PolyhedronResult::ok)

@@ -12,6 +12,7 @@ struct Polyhedron {
     std::vector<std::array<double, 3>> point;
     std::vector<int> rank;              // [points] distinct for distinct places; chooses diagonals
     std::vector<std::vector<int>> face; // indices into point, any orientation
+    unsigned attempts = 48;             // orders of cutting to try before giving up
 };
 
 struct PolyhedronTets {
