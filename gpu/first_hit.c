@@ -23,7 +23,7 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
 {
     const tc_gl *gl = job->gl;
     const tc_state *s = job->state;
-    char defines[256];
+    char defines[512];
     tc_job_defines(defines, sizeof defines, job);
     const tc_program_source source = {"first_hit.vert", "first_hit.frag", defines, NULL};
     GLuint program;

@@ -27,7 +27,9 @@ typedef struct tc_job {
     double map[2];                               /* packed scalar → x = s*map[0] + map[1] */
     double texel[3][2];                          /* table: coordinate → texture coordinate, by axis */
     double grid[2];                              /* running integrals: intervals between nodes, length of one */
-    double mean[4];                              /* running integrals: mean slope */
+    double near, thick; /* running integrals: smallest difference, thickest piece; thick 0: never split */
+    bool nonfinite;     /* some scalars are NaN: their cells contribute nothing */
+    double mean[4];     /* running integrals: mean slope */
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
     bool count;

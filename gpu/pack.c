@@ -38,10 +38,12 @@ static void find_frame(tc_pack *pack, const tc_mesh *mesh)
     pack->scale = d2 > 0 && isfinite(1 / d2) ? 1 / d2 : 1;
 }
 
-/* Exactly x mapped, 0 where it is not finite. */
+/* x mapped; NaN where it is not finite: march.frag leaves out what it reaches. */
 static float map_scalar(double x, double lo, double hi)
 {
-    if (!isfinite(x) || !(hi > lo))
+    if (!isfinite(x))
+        return NAN;
+    if (!(hi > lo))
         return 0;
     return (float)((x - lo) / (hi - lo));
 }
@@ -54,6 +56,36 @@ static void pack_vertices(tc_pack *pack, const tc_mesh *mesh)
         for (int k = 0; k < 3; k++)
             v[k] = (float)((mesh->vertex[3 * i + k] - pack->center[k]) * pack->scale);
         v[3] = has_scalar ? map_scalar(mesh->scalar[i], pack->scalar_lo, pack->scalar_hi) : 0;
+    }
+}
+
+static int bin_of(float s)
+{
+    int bin = (int)(s * TC_PACK_BINS);
+    return bin < 0 ? 0 : bin >= TC_PACK_BINS ? TC_PACK_BINS - 1 : bin;
+}
+
+static void measure_cell(tc_pack_extent *out, const tc_pack *pack, const int32_t *tet, const float *cell_scalar)
+{
+    float edge = 0, lo = INFINITY, hi = -INFINITY;
+    for (int i = 0; i < 4; i++) {
+        const float *p = pack->vertex + 4 * (size_t)tet[i];
+        float s = cell_scalar ? *cell_scalar : p[3];
+        if (isnan(s))
+            return; /* contributes nothing */
+        lo = fminf(lo, s);
+        hi = fmaxf(hi, s);
+        for (int j = 0; j < i; j++) {
+            const float *q = pack->vertex + 4 * (size_t)tet[j];
+            float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+            edge = fmaxf(edge, x * x + y * y + z * z);
+        }
+    }
+    edge = sqrtf(edge);
+    float edge_range = edge * (hi - lo);
+    for (int b = bin_of(lo), last = bin_of(hi); b <= last; b++) {
+        out->edge[b] = fmaxf(out->edge[b], edge);
+        out->edge_range[b] = fmaxf(out->edge_range[b], edge_range);
     }
 }
 
@@ -105,6 +137,8 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err)
     }
     for (size_t i = 0; cell_data && i < mesh->n_tet; i++)
         out->cell_scalar[i] = map_scalar(mesh->scalar[i], out->scalar_lo, out->scalar_hi);
+    for (size_t i = 0; i < mesh->n_tet; i++)
+        measure_cell(&out->extent, out, mesh->tet + 4 * i, cell_data ? &out->cell_scalar[i] : NULL);
     out->ms = tc_now_ms() - start;
     return TC_OK;
 }

@@ -41,6 +41,9 @@ static void bind_transfer(const tc_job *job, GLuint program)
     } else {
         tc_pass_texture(gl, program, "tf_nodes", UNIT_TF, GL_TEXTURE_BUFFER, job->transfer->nodes.texture);
         tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
+        tc_pass_float(gl, program, "tf_near", job->near);
+        if (job->thick > 0)
+            tc_pass_float(gl, program, "tf_thick", job->thick);
         tc_pass_vec4(gl, program, "tf_mean", job->mean);
     }
 }
@@ -49,7 +52,7 @@ static tc_status prepare_programs(loop *l)
 {
     const tc_job *job = l->job;
     const tc_gl *gl = job->gl;
-    char defines[256];
+    char defines[512];
     tc_job_defines(defines, sizeof defines, job);
     const tc_program_source march = {"screen.vert", "march.frag", defines,
                                      job->integrator == TC_INTEGRATOR_TABLE

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { AUTO_STEPS = 32, AUTO_Z_PAPER = 14 };
+enum { AUTO_STEPS = 64, AUTO_Z_PAPER = 14 };
 
 struct tc_gpu_renderer {
     tc_context *context;
@@ -24,6 +24,7 @@ struct tc_gpu_renderer {
     uint64_t mesh_serial, scalar_serial; /* of what is uploaded; 0: nothing */
     tc_gpu_mesh mesh;
     float *face_corner; /* kept from the pack for proposing first hits */
+    tc_pack_extent extent;
     double center[3], scale, scalar_lo, scalar_hi, ms_pack;
 
     tc_transfer_gpu transfer;
@@ -98,6 +99,7 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, tc_render_
     if (status == TC_OK) {
         memcpy(r->center, pack.center, sizeof r->center);
         r->scale = pack.scale;
+        r->extent = pack.extent;
         r->scalar_lo = pack.scalar_lo;
         r->scalar_hi = pack.scalar_hi;
         r->mesh_serial = mesh->serial;
@@ -155,7 +157,7 @@ static void count_steps(tc_render_stats *stats, tc_gpu_renderer *r)
 static tc_status resolve(tc_gpu_renderer *r, const tc_job *job, tc_error *err)
 {
     const tc_gl *gl = &r->context->gl;
-    char defines[256];
+    char defines[512];
     tc_job_defines(defines, sizeof defines, job);
     const tc_program_source source = {"screen.vert", "resolve.frag", defines, NULL};
     GLuint program;
@@ -225,6 +227,8 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
             .options = options,
             .scalar = {r->scalar_lo, r->scalar_hi},
             .length_max = mesh->report.longest_edge / frame->unit_distance,
+            .extent = &r->extent,
+            .length_unit = job.length_unit,
             .threads = r->threads,
         };
         status = tc_transfer_gpu_ensure(&r->transfer, &job, &request, gl, stats, err);
@@ -238,6 +242,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.transfer = &r->transfer.textures;
     job.has_imaginary = mesh->n_imaginary > 0;
     job.peel = peel;
+    job.nonfinite = mesh->report.nonfinite_scalars > 0;
     job.transmittance_stop = options->opacity_stop >= 1 ? -1 : 1 - options->opacity_stop;
     job.count = options->count;
     choose_passes(&job, options);

@@ -9,6 +9,8 @@ typedef struct tc_transfer_gpu_request {
     const tc_render_options *options;
     double scalar[2];  /* what the packed scalars 0 and 1 stand for */
     double length_max; /* longest segment in unit distances */
+    const tc_pack_extent *extent;
+    double length_unit; /* mesh space → unit distances */
     int threads;
 } tc_transfer_gpu_request;
 

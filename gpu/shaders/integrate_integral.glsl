@@ -10,14 +10,21 @@
 uniform samplerBuffer tf_nodes; // two a node: (tau rgb, tau) there; running integral of the same over x, its mean slope taken out
 uniform vec4 tf_mean;           // that slope
 uniform vec2 tf_map;            // scalar → x = s * tf_map.x + tf_map.y, 0 … 1 between the end nodes
-uniform vec2 tf_grid;           // intervals between nodes, and the length of one
+uniform vec2 tf_grid;           // intervals between nodes, a power of two, and the length of one: places of nodes are exact
 
 // Below this difference of x the mean is the average of the ends: the difference of two cumulatives would have lost its
 // digits.
-const float TF_NEAR = 1.0 / 2048.0;
+uniform float tf_near;
+#ifdef TF_SPLIT // some segments may be optically thick
+uniform float tf_thick; // a piece thicker than this is split
+const int SPLIT_MOST = 96;
+#endif
 
 struct TfSample {
     float x;
+#ifdef TF_EXTEND
+    float beyond; // how far x lies outside the nodes, signed
+#endif
     vec4 point, cumulative;
 };
 
@@ -34,7 +41,9 @@ TfSample tf_sample(float s)
     TfSample f;
     f.x = s * tf_map.x + tf_map.y;
 #ifdef TF_EXTEND // the data reach beyond the function's knots, where it is constant
-    int node = int(clamp(f.x, 0.0, 1.0) * tf_grid.x + 0.5);
+    float inside = clamp(f.x, 0.0, 1.0);
+    int node = int(inside * tf_grid.x + 0.5);
+    f.beyond = f.x - inside;
 #else
     int node = int(f.x * tf_grid.x + 0.5);
 #endif
@@ -59,23 +68,63 @@ void integral_enter(inout Integral i, float s)
     i.front = tf_sample(s);
 }
 
-// A segment of length l (unit distances) over which the scalar runs linearly from the last one to s.
-void integral_add(inout Integral i, float s, float l)
+// Mean of (tau rgb, tau) between two samples.
+vec4 tf_mean_between(TfSample front, TfSample back)
 {
-    TfSample back = tf_sample(s);
-    float dx = back.x - i.front.x;
-    bool near = abs(dx) < TF_NEAR;
-    vec4 mean = near ? 0.5 * (i.front.point + back.point)
-                     : tf_mean + (back.cumulative - i.front.cumulative) * (1.0 / (near ? 1.0 : dx));
-    float t = max(l * mean.a, 0.0);
+    float dx = back.x - front.x;
+    bool near = abs(dx) < tf_near;
+#ifdef TF_EXTEND
+    near = near || front.beyond * back.beyond > 0.0; // constant there
+#endif
+    return near ? 0.5 * (front.point + back.point)
+                : tf_mean + (back.cumulative - front.cumulative) * (1.0 / (near ? 1.0 : dx));
+}
+
+// Adds a piece of optical depth t from the last sample to back.
+void integral_piece(inout Integral i, TfSample back, vec4 mean, float t)
+{
     i.depth += t;
     float transmittance = exp(-i.depth);
     float inverse = mean.a > 0.0 ? 1.0 / mean.a : 0.0;
     float e = (i.transmittance - transmittance) * inverse;
     float k = i.transmittance * inverse * t * t / (12.0 + t * (6.0 + 2.0 * t));
-    i.rgb += mean.rgb * (e + k * inverse * (back.point.a - i.front.point.a)) - k * (back.point.rgb - i.front.point.rgb);
+    vec3 c = mean.rgb * (e + k * inverse * (back.point.a - i.front.point.a)) - k * (back.point.rgb - i.front.point.rgb);
+    i.rgb += clamp(c, 0.0, i.transmittance - transmittance); // no more light than opacity
     i.transmittance = transmittance;
     i.front = back;
+}
+
+// A segment of length l (unit distances) over which the scalar runs linearly from the last one to s.
+void integral_add(inout Integral i, float s, float l)
+{
+#ifdef TF_SPLIT
+    // Pieces thin enough for the drift to be linear. A piece that proves too thick is shortened once or twice.
+    float s0 = (i.front.x - tf_map.y) / tf_map.x;
+    float from = 0.0, to = 1.0;
+    int shortened = 0;
+    for (int n = 0; n < SPLIT_MOST; n++) {
+        TfSample back = tf_sample(to < 1.0 ? mix(s0, s, to) : s);
+        vec4 mean = tf_mean_between(i.front, back);
+        float t = max(l * (to - from) * mean.a, 0.0);
+        if (t > tf_thick && shortened < 3 && n < SPLIT_MOST - 4) {
+            to = from + (to - from) * max(0.75 * tf_thick / t, 1.0e-3);
+            shortened++;
+        } else {
+            integral_piece(i, back, mean, t);
+            from = to;
+            to = 1.0;
+            shortened = 0;
+            if (from >= 1.0 || i.transmittance < 1.0e-6)
+                break;
+        }
+    }
+    if (i.transmittance < 1.0e-6)
+        integral_enter(i, s);
+#else
+    TfSample back = tf_sample(s);
+    vec4 mean = tf_mean_between(i.front, back);
+    integral_piece(i, back, mean, max(l * mean.a, 0.0));
+#endif
 }
 
 float integral_transmittance(Integral i)

@@ -57,7 +57,15 @@ void main()
             segment.s0 = segment.s1 = segment.real ? mesh_cell_value(segment.cell) : 0.0;
             integral_enter(integral, segment.s0);
 #endif
-            integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
+        #ifdef NONFINITE
+    // A cell with a value that is not finite contributes nothing: its entry and exit face together hold all its vertices.
+    if (isnan(segment.s0) || isnan(segment.s1)) {
+        segment.real = false;
+        segment.s1 = isnan(segment.s1) ? 0.0 : segment.s1;
+        integral_enter(integral, segment.s1);
+    }
+#endif
+    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
             if (integral_transmittance(integral) <= transmittance_stop)
                 w.cell = -2;
             if (w.cell < 0)

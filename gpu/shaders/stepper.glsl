@@ -96,7 +96,11 @@ Segment walk_step(inout Walk w, Ray ray)
     // An empty segment advances neither depth nor scalar; depth never goes back. Behind an imaginary cell the scalar is
     // always the face's own: the one before it belonged to other vertices.
     bool forward = at.x > w.z;
+#ifdef NONFINITE
+    w.s = forward || !segment.real || isnan(w.s) ? at.y : w.s;
+#else
     w.s = forward || !segment.real ? at.y : w.s;
+#endif
     w.z = forward ? at.x : w.z;
     segment.z1 = w.z;
     segment.s1 = w.s;
