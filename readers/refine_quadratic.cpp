@@ -7,6 +7,7 @@
 #include "split_cells.h"
 
 #include <vtkCell.h>
+#include <vtkCellType.h>
 #include <vtkIdList.h>
 #include <vtkPoints.h>
 
@@ -34,7 +35,7 @@ bool Refiner::can(const CellType &type)
     case Shape::wedge:
     case Shape::hexahedron:
     case Shape::voxel:
-        return type.vtk < 60 || type.vtk > 67; // VTK has no classes for 60 to 67
+        return (type.vtk < 60 || type.vtk > 67) && type.vtk != 74 && type.vtk != 81; // VTK has no classes for these
     default:
         return false;
     }
@@ -61,8 +62,10 @@ Refiner::Node Refiner::middle(const std::vector<const Node *> &parents)
         }
     }
     double r[3] = {made.p[0], made.p[1], made.p[2]};
-    if (shape == Shape::pyramid) {
-        // VTK's pyramid is a cube whose top is pulled together.
+    if (shape == Shape::pyramid && cell->GetCellType() == VTK_TRIQUADRATIC_PYRAMID) {
+        r[2] = 0.5 + 0.5 * made.p[2]; // VTK's numbers for this one begin at 1/2
+    } else if (shape == Shape::pyramid) {
+        // VTK's other pyramids are cubes whose top is pulled together.
         for (int k = 0; k < 2; k++)
             r[k] = made.p[2] < 1 ? (made.p[k] - 0.5 * made.p[2]) / (1 - made.p[2]) : 0.5;
     }

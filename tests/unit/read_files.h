@@ -84,7 +84,7 @@ static inline void write_vtu(const char *path, const grid *g, const char *point_
     FILE *f = fopen(path, "wb");
     assert_non_null(f);
     fprintf(f,
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"2.2\" byte_order=\"LittleEndian\">\n"
             "<UnstructuredGrid><Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n<PointData>%s</PointData>\n"
             "<CellData>%s</CellData>\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n",
             g->n_point, g->n_cell, point_data, cell_data);

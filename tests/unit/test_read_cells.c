@@ -474,6 +474,77 @@ static void test_refinement_does_not_follow_the_curve(void **state)
     }
 }
 
+/* Straight-sided cells of higher order: refined they must fill the same volume, with a boundary of four times the
+ * faces. */
+static void test_orders_and_shapes_have_other_parameters(void **state)
+{
+    (void)state;
+    static const double tet[4][3] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+    static const double hex[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                     {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    static const double wedge[6][3] = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 1}};
+    static const double pyramid[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, .5, 1}};
+    /* Further nodes: means of corners. */
+    static const char *const tet_nodes[] = {"01", "12", "02", "03", "13", "23"};
+    static const char *const hex_nodes[] = {"01", "12", "23",   "03",   "45",   "56",   "67",   "47",   "04",      "15",
+                                            "26", "37", "0347", "1256", "0145", "2367", "0123", "4567", "01234567"};
+    static const char *const wedge_nodes[] = {"01", "12", "02", "34",   "45",   "35",
+                                              "03", "14", "25", "0134", "1245", "0235"};
+    static const char *const pyramid_nodes[] = {"01", "12",   "23",  "03",  "04",  "14",  "24",
+                                                "34", "0123", "014", "124", "234", "034", ""};
+    static const struct {
+        int type, n_corner, n_more;
+        const double (*corner)[3];
+        const char *const *more;
+        double volume;
+        size_t boundary;
+    } cells[] = {
+        {24, 4, 6, tet, tet_nodes, 8. / 6, 4},
+        {71, 4, 6, tet, tet_nodes, 8. / 6, 4},
+        {78, 4, 6, tet, tet_nodes, 8. / 6, 4},
+        {25, 8, 12, hex, hex_nodes, 1, 12},
+        {29, 8, 19, hex, hex_nodes, 1, 12},
+        {33, 8, 16, hex, hex_nodes, 1, 12},
+        {72, 8, 19, hex, hex_nodes, 1, 12},
+        {79, 8, 19, hex, hex_nodes, 1, 12},
+        {26, 6, 9, wedge, wedge_nodes, .5, 8},
+        {31, 6, 6, wedge, wedge_nodes, .5, 8},
+        {32, 6, 12, wedge, wedge_nodes, .5, 8},
+        {73, 6, 12, wedge, wedge_nodes, .5, 8},
+        {80, 6, 12, wedge, wedge_nodes, .5, 8},
+        {27, 5, 8, pyramid, pyramid_nodes, 1. / 3, 6},
+        {37, 5, 14, pyramid, pyramid_nodes, 1. / 3, 6},
+    };
+    for (size_t c = 0; c < sizeof cells / sizeof *cells; c++) {
+        static grid g;
+        memset(&g, 0, sizeof g);
+        int id[32];
+        for (int i = 0; i < cells[c].n_corner; i++)
+            id[i] = add_point(&g, cells[c].corner[i][0], cells[c].corner[i][1], cells[c].corner[i][2]);
+        for (int i = 0; i < cells[c].n_more; i++) {
+            double x[3] = {.5, .5, .25}; /* the middle of the pyramid */
+            const char *of = cells[c].more[i];
+            for (int k = 0; of[0] && k < 3; k++) {
+                x[k] = 0;
+                for (const char *p = of; *p; p++)
+                    x[k] += cells[c].corner[*p - '0'][k] / (double)strlen(of);
+            }
+            id[cells[c].n_corner + i] = add_point(&g, x[0], x[1], x[2]);
+        }
+        add_cell(&g, cells[c].type, cells[c].n_corner + cells[c].n_more, id);
+        for (int level = 0; level < 2; level++) {
+            const tc_read_options options = {.refine = 2 * level};
+            tc_mesh *m = read_grid(&g, &options);
+            assert_true(m->source->linearised);
+            assert_near(mesh_volume(m), cells[c].volume, 1e-12);
+            const tc_mesh_report r = prepared(m);
+            assert_int_equal(r.n_boundary_face, cells[c].boundary << (4 * level));
+            assert_int_equal(r.unlinked_faces, 0);
+            tc_mesh_destroy(&m);
+        }
+    }
+}
+
 static void test_refine_on_straight_cells_is_silent(void **state)
 {
     (void)state;
@@ -504,6 +575,7 @@ int main(void)
         cmocka_unit_test(test_open_polyhedra_are_not_counted),
         cmocka_unit_test(test_refinement_loses_quadratic_data),
         cmocka_unit_test(test_refinement_does_not_follow_the_curve),
+        cmocka_unit_test(test_orders_and_shapes_have_other_parameters),
         cmocka_unit_test(test_refine_on_straight_cells_is_silent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
