@@ -55,7 +55,7 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
     if (layer == 0)
         upload_proposals(job);
     tc_job_bind_mesh(job, program);
-    tc_pass_texture(gl, program, "faces", 3, GL_TEXTURE_BUFFER, job->mesh->faces.texture);
+    tc_pass_texture(gl, program, "faces", 6, GL_TEXTURE_BUFFER, job->mesh->faces.texture);
     if (job->peel) {
         tc_pass_texture(gl, program, "peel_key", 4, GL_TEXTURE_2D, s->key[1 - next]);
         tc_pass_texture(gl, program, "state_color", 5, GL_TEXTURE_2D, s->set[0].color);

@@ -14,6 +14,7 @@
     X(PFNGLBEGINQUERYPROC, BeginQuery)                                                                                 \
     X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                                 \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                                       \
+    X(PFNGLBINDIMAGETEXTUREPROC, BindImageTexture)                                                                     \
     X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                                                                     \
     X(PFNGLBINDSAMPLERPROC, BindSampler)                                                                               \
     X(PFNGLBINDTEXTUREPROC, BindTexture)                                                                               \

@@ -33,6 +33,7 @@ typedef struct tc_job {
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
     bool count;
+    bool fetch_images; /* fetch.glsl: load through images */
 } tc_job;
 
 typedef struct tc_job_result {
@@ -44,7 +45,7 @@ typedef struct tc_job_result {
 
 /* Program text options of a job: "#define …" lines into out. */
 void tc_job_defines(char *out, size_t capacity, const tc_job *job);
-/* Sets what march and first hit share: rays, mesh textures (units 0…3). The program must be in use. */
+/* Sets what march and first hit share: rays, mesh textures (units 0, 1, 3). The program must be in use. */
 void tc_job_bind_mesh(const tc_job *job, GLuint program);
 
 #endif

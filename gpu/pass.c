@@ -46,6 +46,15 @@ void tc_pass_texture(const tc_gl *gl, GLuint program, const char *name, GLuint u
     gl->Uniform1i(gl->GetUniformLocation(program, name), (GLint)unit);
 }
 
+void tc_pass_fetch(const tc_gl *gl, GLuint program, const char *name, GLuint unit, GLenum format, GLuint texture,
+                   bool images)
+{
+    if (images)
+        gl->BindImageTexture(unit, texture, 0, GL_FALSE, 0, GL_READ_ONLY, format);
+    else
+        tc_pass_texture(gl, program, name, unit, GL_TEXTURE_BUFFER, texture);
+}
+
 void tc_pass_screen(const tc_gl *gl)
 {
     gl->DrawArrays(GL_TRIANGLES, 0, 3);

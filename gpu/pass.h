@@ -14,6 +14,10 @@ void tc_pass_vec4(const tc_gl *gl, GLuint program, const char *name, const doubl
 void tc_pass_frame(const tc_gl *gl, GLuint program, const tc_frame *frame);
 /* Binds a texture to a unit and the sampler `name` to it. */
 void tc_pass_texture(const tc_gl *gl, GLuint program, const char *name, GLuint unit, GLenum target, GLuint texture);
+/* The same for a buffer texture that fetch.glsl declares: as a texture of that unit, or, with images, as image `unit`.
+ */
+void tc_pass_fetch(const tc_gl *gl, GLuint program, const char *name, GLuint unit, GLenum format, GLuint texture,
+                   bool images);
 /* One triangle over the viewport (screen.vert). */
 void tc_pass_screen(const tc_gl *gl);
 

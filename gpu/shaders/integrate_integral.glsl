@@ -7,7 +7,7 @@
 // (the same to order t^3 and in the limit, within 0.008 between).
 // Optical depth is summed, not transmittance multiplied: exp() errs once per ray, not once per segment.
 
-uniform samplerBuffer tf_nodes; // two a node: (tau rgb, tau) there; running integral of the same over x, its mean slope taken out
+FETCH_BUFFER(2) tf_nodes; // two a node: (tau rgb, tau) there; running integral of the same over x, its mean slope taken out
 uniform vec4 tf_mean;           // that slope
 uniform vec2 tf_map;            // scalar → x = s * tf_map.x + tf_map.y, 0 … 1 between the end nodes
 uniform vec2 tf_grid;           // intervals between nodes, a power of two, and the length of one: places of nodes are exact
@@ -47,8 +47,8 @@ TfSample tf_sample(float s)
 #else
     int node = int(f.x * tf_grid.x + 0.5);
 #endif
-    f.point = texelFetch(tf_nodes, 2 * node);
-    f.cumulative = texelFetch(tf_nodes, 2 * node + 1) + (f.point - tf_mean) * (f.x - float(node) * tf_grid.y);
+    f.point = fetch(tf_nodes, 2 * node);
+    f.cumulative = fetch(tf_nodes, 2 * node + 1) + (f.point - tf_mean) * (f.x - float(node) * tf_grid.y);
     return f;
 }
 

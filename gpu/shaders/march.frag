@@ -35,6 +35,7 @@ void main()
         walk_face(w, ray, walk.x, walk.yzw, facing);
         w.z = at.x;
         w.s = at.y;
+        walk_look_ahead(w);
         Integral integral = integral_begin(color, w.s);
         for (int k = 0; k < steps_per_pass; k++) {
             Segment segment = walk_step(w, ray);

@@ -16,6 +16,8 @@ struct Walk {
     vec4 a, b, c;  // projected: x, y across, z along the ray, and the scalar
     vec3 weight;   // crosses (b,c), (c,a), (a,b), all positive: the ray's barycentric coordinates in the face
     float z, s;    // depth and scalar where the ray meets the face
+    int ahead;     // the cell's fourth vertex and its record, fetched before they are needed: memory is slow
+    vec4 ahead_vertex;
 };
 
 struct Segment {
@@ -27,8 +29,15 @@ struct Segment {
 
 vec4 walk_vertex(Ray ray, int id)
 {
-    vec4 x = texelFetch(mesh_vertices, id);
+    vec4 x = fetch(mesh_vertices, id);
     return vec4(ray_project(ray, x.xyz), x.w);
+}
+
+// Fetches what the next step will look at. Harmless outside the mesh: what it fetches there is never used.
+void walk_look_ahead(inout Walk w)
+{
+    w.ahead = mesh_fourth_vertex(w.cell, w.id);
+    w.ahead_vertex = fetch(mesh_vertices, w.ahead);
 }
 
 // Depth and scalar at the walk's face: a convex combination, so both stay within the face's own values.
@@ -63,12 +72,13 @@ bool walk_face(out Walk w, Ray ray, int cell, ivec3 id, out int facing)
     return w.weight.y > 0.0 && w.weight.z > 0.0;
 }
 
-// One cell step: from the face into w.cell and out at the face that holds the ray there.
+// One cell step: from the face into w.cell and out at the face that holds the ray there. walk_look_ahead must have been
+// called for the first one.
 Segment walk_step(inout Walk w, Ray ray)
 {
     int cell = w.cell;
-    int id = mesh_fourth_vertex(cell, w.id);
-    vec4 d = walk_vertex(ray, id);
+    int id = w.ahead;
+    vec4 d = vec4(ray_project(ray, w.ahead_vertex.xyz), w.ahead_vertex.w);
     float da = sign_cross(d.xy, w.a.xy, id, w.id.x);
     float db = sign_cross(d.xy, w.b.xy, id, w.id.y);
     float dc = sign_cross(d.xy, w.c.xy, id, w.id.z);
@@ -86,6 +96,7 @@ Segment walk_step(inout Walk w, Ray ray)
     w.b = drop_b ? d : w.b;
     w.c = drop_c ? d : w.c;
     w.cell = mesh_neighbour(cell, dropped, w.id);
+    walk_look_ahead(w);
 
     Segment segment;
     segment.cell = cell;
