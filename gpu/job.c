@@ -13,15 +13,15 @@ void tc_job_defines(char *out, size_t capacity, const tc_job *job)
              job->integrator == TC_INTEGRATOR_INTEGRAL ? "#define COLOR_HOLDS_DEPTH\n" : "",
              job->count ? "#define COUNT\n" : "",
              job->integrator == TC_INTEGRATOR_INTEGRAL && job->thick > 0 ? "#define TF_SPLIT\n" : "",
-             job->nonfinite ? "#define NONFINITE\n" : "", job->fetch_images ? "#define FETCH_IMAGES\n" : "");
+             job->nonfinite ? "#define NONFINITE\n" : "", job->software ? "#define SOFTWARE\n" : "");
 }
 
 void tc_job_bind_mesh(const tc_job *job, GLuint program)
 {
     const tc_gl *gl = job->gl;
     tc_pass_frame(gl, program, job->frame);
-    tc_pass_fetch(gl, program, "mesh_cells", 0, GL_R32I, job->mesh->cells.texture, job->fetch_images);
-    tc_pass_fetch(gl, program, "mesh_vertices", 1, GL_RGBA32F, job->mesh->vertices.texture, job->fetch_images);
+    tc_pass_fetch(gl, program, "mesh_cells", 0, GL_R32I, job->mesh->cells.texture, job->software);
+    tc_pass_fetch(gl, program, "mesh_vertices", 1, GL_RGBA32F, job->mesh->vertices.texture, job->software);
     if (job->cell_data)
         tc_pass_texture(gl, program, "mesh_cell_scalar", 3, GL_TEXTURE_BUFFER, job->mesh->cell_scalar.texture);
     if (job->has_imaginary)

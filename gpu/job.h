@@ -33,7 +33,7 @@ typedef struct tc_job {
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
     bool count;
-    bool fetch_images; /* fetch.glsl: load through images */
+    bool software; /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
 } tc_job;
 
 typedef struct tc_job_result {

@@ -39,7 +39,7 @@ static void bind_transfer(const tc_job *job, GLuint program)
         tc_pass_vec2(gl, program, "tf_texel[1]", job->texel[1][0], job->texel[1][1]);
         tc_pass_vec2(gl, program, "tf_texel[2]", job->texel[2][0], job->texel[2][1]);
     } else {
-        tc_pass_fetch(gl, program, "tf_nodes", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->fetch_images);
+        tc_pass_fetch(gl, program, "tf_nodes", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
         tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
         tc_pass_float(gl, program, "tf_near", job->near);
         if (job->thick > 0)

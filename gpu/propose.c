@@ -104,6 +104,8 @@ static void propose_face(tc_proposals *out, const screen *s, int32_t face, const
           hi_y = fmaxf(p[0].y, fmaxf(p[1].y, p[2].y)) + s->margin;
     if (hi_x < 0 || hi_y < 0 || lo_x > s->width || lo_y > s->height)
         return;
+    if (floorf(hi_x - 0.5f) < ceilf(lo_x - 0.5f) || floorf(hi_y - 0.5f) < ceilf(lo_y - 0.5f))
+        return; /* between the rays */
     bool blunt = area > 0;
     for (int i = 0; i < 3 && blunt; i++) {
         int j = (i + 1) % 3;

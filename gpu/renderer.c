@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { AUTO_STEPS = 64, AUTO_Z_PAPER = 14 };
+enum { AUTO_STEPS = 256, AUTO_Z_PAPER = 14 };
 
 struct tc_gpu_renderer {
     tc_context *context;
@@ -245,7 +245,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.nonfinite = mesh->report.nonfinite_scalars > 0;
     job.transmittance_stop = options->opacity_stop >= 1 ? -1 : 1 - options->opacity_stop;
     job.count = options->count;
-    job.fetch_images = r->context->software;
+    job.software = r->context->software;
     choose_passes(&job, options);
 
     job.proposals = &r->proposals;

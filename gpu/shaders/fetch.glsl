@@ -1,6 +1,6 @@
 // fetch.glsl: one texel of a buffer texture, by the way that is cheap here.
 // llvmpipe makes a function call of texelFetch, around which every register is saved, but loads images in line.
-#ifdef FETCH_IMAGES
+#ifdef SOFTWARE
 #define FETCH_BUFFER(unit) layout(rgba32f, binding = unit) readonly restrict uniform imageBuffer
 #define FETCH_IBUFFER(unit) layout(r32i, binding = unit) readonly restrict uniform iimageBuffer
 #define fetch(buffer, i) imageLoad(buffer, i)
