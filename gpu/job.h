@@ -28,6 +28,7 @@ typedef struct tc_job {
     double texel[3][2];                          /* table: coordinate → texture coordinate, by axis */
     double grid[2];                              /* running integrals: intervals between nodes, length of one */
     double near, thick; /* running integrals: smallest difference, thickest piece; thick 0: never split */
+    bool rough;         /* running integrals: steps, or split segments */
     bool nonfinite;     /* some scalars are NaN: their cells contribute nothing */
     double mean[4];     /* running integrals: mean slope */
 

@@ -11,11 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CORNERS = 21 };          /* that one face may need */
-static const float MARGIN = 0.0625f; /* pixels: how far a face is enlarged beside its rounding error */
-static const float ROUNDING = 1e-6f; /* of clip coordinates, relative to their terms */
-static const float SMALL = 6.0f;     /* pixels: a face this small becomes a rectangle when it has a sharp corner */
-static const float MITRE_SIN = 0.3f; /* sine of the sharpest corner whose edges are moved */
+enum { MOST_CORNERS = 21 };           /* that one face may need */
+static const float MARGIN = 0.0625f;  /* pixels: how far a face is enlarged beside its rounding error */
+static const float ROUNDING = 1e-6f;  /* of clip coordinates, relative to their terms */
+static const float SMALL = 6.0f;      /* pixels: a face this small becomes a rectangle when it has a sharp corner */
+static const float MITRE_SIN = 0.03f; /* sine of the sharpest corner whose edges are moved */
 static const float W_MIN = 1e-4f; /* of the largest w: nearer to the eye's plane a place on the screen has no meaning */
 
 typedef struct point {

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { INTERVALS_LEAST = 8192, INTERVALS_MOST = 65536 }; /* powers of two: places of nodes are exact in float */
-static const double INTERVALS_A_GAP = 64;                /* between the two nearest knots, if they may be had */
+static const double INTERVALS_A_RISE = 64;               /* over which the function may go from none to all */
 static const double THICK = 0.25;                        /* optical depth above which a segment is split … */
 static const double UNSPLIT_ERROR = 1e-3;                /* … in pictures where leaving it whole might err by more, */
 static const double UNSPLIT_SHARE = 0.005;               /* as needs_split reckons */
@@ -36,15 +36,22 @@ static void find_span(double span[2], const tc_transfer_gpu_request *request)
     }
 }
 
-/* Enough nodes to resolve the nearest knots; a step (two knots at one scalar) asks for all that may be had. */
+/* Enough nodes to resolve the steepest rise; a step (two knots at one scalar) asks for all that may be had. */
 static int choose_nodes(const tc_transfer *tf, const double span[2])
 {
-    double gap = span[1] - span[0];
-    for (size_t i = 1; i < tf->n; i++)
-        if (tf->knot[i].s >= span[0] && tf->knot[i - 1].s <= span[1])
-            gap = fmin(gap, tf->knot[i].s - tf->knot[i - 1].s);
+    double most = 0, steepest = 0;
+    for (size_t i = 0; i < tf->n; i++)
+        most = fmax(most, tf->knot[i].a);
+    for (size_t i = 1; i < tf->n; i++) {
+        const tc_knot *p = &tf->knot[i - 1], *q = p + 1;
+        double change = fmax(fabs(q->r - p->r), fmax(fabs(q->g - p->g), fabs(q->b - p->b)));
+        if (most > 0)
+            change = fmax(change, fabs(q->a - p->a) / most);
+        if (change > 0 && q->s > span[0] && p->s < span[1])
+            steepest = fmax(steepest, change * (span[1] - span[0]) / (q->s - p->s));
+    }
     int n = INTERVALS_LEAST;
-    while (n < INTERVALS_MOST && n * gap < INTERVALS_A_GAP * (span[1] - span[0]))
+    while (n < INTERVALS_MOST && n < INTERVALS_A_RISE * steepest)
         n *= 2;
     return n + 1;
 }
@@ -179,6 +186,7 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
     }
     bind(job, t);
     job->thick = t->integrator == TC_INTEGRATOR_INTEGRAL && needs_split(request) ? THICK : 0;
+    job->rough = job->thick > 0 || t->size[0] > INTERVALS_MOST / 2;
     return status;
 }
 

@@ -111,7 +111,8 @@ tc_status tc_gpu_running_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_
     if (!nodes)
         return tc_fail_memory(err, "the running integrals", n, 8 * sizeof *nodes);
     for (size_t i = 0; i < n; i++) {
-        memcpy(nodes + 8 * i, running->point + 4 * i, 4 * sizeof *nodes);
+        for (size_t k = 0; k < 4; k++)
+            nodes[8 * i + k] = (float)(running->point[4 * i + k] - running->mean[k]);
         memcpy(nodes + 8 * i + 4, running->cumulative + 4 * i, 4 * sizeof *nodes);
     }
     tc_status status =

@@ -7,8 +7,8 @@
 // (the same to order t^3 and in the limit, within 0.008 between).
 // Optical depth is summed, not transmittance multiplied: exp() errs once per ray, not once per segment.
 
-FETCH_BUFFER(2) tf_nodes; // two a node: (tau rgb, tau) there; running integral of the same over x, its mean slope taken out
-uniform vec4 tf_mean;           // that slope
+FETCH_BUFFER(2) tf_nodes; // two a node: (tau rgb, tau) there less the mean; its running integral over x
+uniform vec4 tf_mean;           // of (tau rgb, tau) over the nodes' span; taken out so that float keeps digits
 uniform vec2 tf_map;            // scalar → x = s * tf_map.x + tf_map.y, 0 … 1 between the end nodes
 uniform vec2 tf_grid;           // intervals between nodes, a power of two, and the length of one: places of nodes are exact
 
@@ -48,7 +48,7 @@ TfSample tf_sample(float s)
     int node = int(f.x * tf_grid.x + 0.5);
 #endif
     f.point = fetch(tf_nodes, 2 * node);
-    f.cumulative = fetch(tf_nodes, 2 * node + 1) + (f.point - tf_mean) * (f.x - float(node) * tf_grid.y);
+    f.cumulative = fetch(tf_nodes, 2 * node + 1) + f.point * (f.x - float(node) * tf_grid.y);
     return f;
 }
 
@@ -76,8 +76,7 @@ vec4 tf_mean_between(TfSample front, TfSample back)
 #ifdef TF_EXTEND
     near = near || front.beyond * back.beyond > 0.0; // constant there
 #endif
-    return near ? 0.5 * (front.point + back.point)
-                : tf_mean + (back.cumulative - front.cumulative) * (1.0 / (near ? 1.0 : dx));
+    vec4 a = tf_mean + 0.5 * (front.point + back.point); vec4 b = tf_mean + (back.cumulative - front.cumulative) * (1.0 / (near ? 1.0 : dx)); return near ? a : b;
 }
 
 // Adds a piece of optical depth t from the last sample to back.
@@ -89,7 +88,10 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float t)
     float e = (i.transmittance - transmittance) * inverse;
     float k = i.transmittance * inverse * t * t / (12.0 + t * (6.0 + 2.0 * t));
     vec3 c = mean.rgb * (e + k * inverse * (back.point.a - i.front.point.a)) - k * (back.point.rgb - i.front.point.rgb);
-    i.rgb += clamp(c, 0.0, i.transmittance - transmittance); // no more light than opacity
+#ifdef TF_ROUGH // no more light than opacity, where steps may mislead the drift
+    c = clamp(c, 0.0, i.transmittance - transmittance);
+#endif
+    i.rgb += c;
     i.transmittance = transmittance;
     i.front = back;
 }
