@@ -12,7 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { AUTO_STEPS = 256, AUTO_Z_PAPER = 14 };
+enum {
+    AUTO_STEPS_SOFTWARE = 512, /* where a pass costs next to nothing: most rays end in the first */
+    AUTO_STEPS_HARDWARE = 64,
+    AUTO_Z_PAPER = 14 /* Weiler et al. 2003, 5.2 */
+};
 
 struct tc_gpu_renderer {
     tc_context *context;
@@ -127,10 +131,12 @@ static tc_status ensure_state(tc_gpu_renderer *r, const tc_render_options *optio
 /* Steps per pass and z-update interval where the caller left them to us. */
 static void choose_passes(tc_job *job, const tc_render_options *options)
 {
-    job->steps_per_pass = options->steps_per_pass > 0 ? options->steps_per_pass : AUTO_STEPS;
+    job->steps_per_pass = options->steps_per_pass > 0 ? options->steps_per_pass
+                          : job->software             ? AUTO_STEPS_SOFTWARE
+                                                      : AUTO_STEPS_HARDWARE;
     int every = options->z_update_every;
     if (every == 0)
-        every = job->steps_per_pass >= 8 ? 2 : AUTO_Z_PAPER; /* 14: Weiler et al. 2003, 5.2 */
+        every = job->steps_per_pass >= 8 ? 2 : AUTO_Z_PAPER;
     job->z_update_every = every < 0 ? -1 : (every + 1) / 2 * 2;
 }
 
