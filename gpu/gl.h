@@ -79,6 +79,7 @@
     X(PFNGLREADBUFFERPROC, ReadBuffer)                                                                                 \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                                                 \
     X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                                                               \
+    X(PFNGLSCISSORPROC, Scissor)                                                                                       \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                             \
     X(PFNGLTEXBUFFERPROC, TexBuffer)                                                                                   \
     X(PFNGLTEXIMAGE1DPROC, TexImage1D)                                                                                 \

@@ -165,7 +165,7 @@ static tc_status march_layer(loop *l)
     gl->DepthMask(GL_TRUE);
     gl->ClearBufferfv(GL_DEPTH, 0, &far_depth);
     gl->DepthMask(GL_FALSE);
-    l->open = (int64_t)job->state->width * job->state->height;
+    l->open = (int64_t)job->proposals->rect[2] * job->proposals->rect[3];
     issue_lock(l); /* rays that miss the mesh */
     tc_status status = collect_lock(l);
     if (status != TC_OK || l->open == 0)

@@ -147,6 +147,31 @@ static float clip_rounding(const screen *s)
     return ROUNDING * 0.5f * fmaxf(terms[0] * s->width, terms[1] * s->height);
 }
 
+/* The pixels that hold all corners, a pixel more, within the image. */
+static void bound(tc_proposals *out, int width, int height)
+{
+    float lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+    for (size_t i = 0; i < out->n; i++) {
+        const float at[2] = {(out->corner[i].x + 1) * 0.5f * (float)width,
+                             (out->corner[i].y + 1) * 0.5f * (float)height};
+        for (int k = 0; k < 2; k++) {
+            lo[k] = fminf(lo[k], at[k]);
+            hi[k] = fmaxf(hi[k], at[k]);
+        }
+    }
+    memset(out->rect, 0, sizeof out->rect);
+    const int size[2] = {width, height};
+    int first[2], last[2];
+    for (int k = 0; k < 2; k++) {
+        if (!(hi[k] > 0 && lo[k] < (float)size[k]))
+            return;
+        first[k] = lo[k] > 1 ? (int)lo[k] - 1 : 0;
+        last[k] = hi[k] + 2 < (float)size[k] ? (int)hi[k] + 2 : size[k];
+        out->rect[k] = first[k];
+        out->rect[2 + k] = last[k] - first[k];
+    }
+}
+
 tc_status tc_propose(tc_proposals *out, const tc_frame *frame, int width, int height, const float *corner,
                      size_t n_face, tc_error *err)
 {
@@ -179,6 +204,7 @@ tc_status tc_propose(tc_proposals *out, const tc_frame *frame, int width, int he
             propose_face(out, &s, (int32_t)i, p);
         }
     }
+    bound(out, width, height);
     return TC_OK;
 }
 

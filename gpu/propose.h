@@ -14,6 +14,7 @@ typedef struct tc_proposal {
 typedef struct tc_proposals {
     tc_proposal *corner; /* [n], three a triangle; faces ascending */
     size_t n, capacity;
+    int rect[4]; /* pixels that hold every proposal: x, y (from the bottom), width, height; empty: width 0 */
 } tc_proposals;
 
 /* Proposes every pixel whose ray may enter through a face: each face that may look at the eye, a little

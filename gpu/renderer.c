@@ -34,6 +34,7 @@ struct tc_gpu_renderer {
     tc_transfer_gpu transfer;
     tc_state state;
     tc_proposals proposals;
+    int drawn[4]; /* part of the result that is not empty */
     int64_t *fragments;
 };
 
@@ -125,6 +126,9 @@ static tc_status ensure_state(tc_gpu_renderer *r, const tc_render_options *optio
         s->peeling == peeling)
         return TC_OK;
     tc_state_finish(s, &r->context->gl);
+    r->drawn[0] = r->drawn[1] = 0; /* a new result holds anything */
+    r->drawn[2] = options->width;
+    r->drawn[3] = options->height;
     return tc_state_create(s, &r->context->gl, options->width, options->height, options->count, peeling, err);
 }
 
@@ -160,6 +164,12 @@ static void count_steps(tc_render_stats *stats, tc_gpu_renderer *r)
     free(steps);
 }
 
+/* Limits drawing and clearing to a rectangle of pixels. */
+static void set_scissor(const tc_gl *gl, const int *rect)
+{
+    gl->Scissor(rect[0], rect[1], rect[2], rect[3]);
+}
+
 static tc_status resolve(tc_gpu_renderer *r, const tc_job *job, tc_error *err)
 {
     const tc_gl *gl = &r->context->gl;
@@ -172,6 +182,11 @@ static tc_status resolve(tc_gpu_renderer *r, const tc_job *job, tc_error *err)
         return status;
     gl->BindFramebuffer(GL_FRAMEBUFFER, r->state.result_framebuffer);
     gl->Viewport(0, 0, r->state.width, r->state.height);
+    const GLfloat empty[4] = {0, 0, 0, 0};
+    set_scissor(gl, r->drawn); /* what the last frame left */
+    gl->ClearBufferfv(GL_COLOR, 0, empty);
+    set_scissor(gl, job->proposals->rect);
+    memcpy(r->drawn, job->proposals->rect, sizeof r->drawn);
     gl->Disable(GL_DEPTH_TEST);
     gl->UseProgram(program);
     tc_pass_texture(gl, program, "state_color", 0, GL_TEXTURE_2D, r->state.set[0].color);
@@ -259,18 +274,27 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.hit_array = r->vertex_array[1];
     job.hit_buffer = r->hit_buffer;
 
+    if (options->count) { /* steps are read as a whole */
+        const GLuint none[4] = {0, 0, 0, 0};
+        gl->BindFramebuffer(GL_FRAMEBUFFER, r->state.set[0].framebuffer);
+        gl->ClearBufferuiv(GL_COLOR, 3, none);
+    }
     double start = tc_now_ms();
     tc_job_result result = {0};
     r->proposals.n = 0;
+    memset(r->proposals.rect, 0, sizeof r->proposals.rect);
     if (!rays.behind)
         status = tc_propose(&r->proposals, &rays, options->width, options->height, r->face_corner, r->mesh.n_face, err);
     double ms_propose = tc_now_ms() - start;
+    gl->Enable(GL_SCISSOR_TEST); /* nothing is done where no face is seen */
+    set_scissor(gl, r->proposals.rect);
     if (status == TC_OK)
         status = tc_pingpong_frame(&result, &job, err);
     result.ms_first_hit += ms_propose;
     if (status == TC_OK)
         status = resolve(r, &job, err);
     stats->ms_frame = tc_now_ms() - start;
+    gl->Disable(GL_SCISSOR_TEST);
     stats->ms_compile = tc_program_cache_ms(r->programs) - compile_before;
     fill_stats(stats, r, &job, &result);
     if (status == TC_OK && options->count) {

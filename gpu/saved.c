@@ -11,6 +11,7 @@ void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
     gl->GetIntegerv(GL_RENDERBUFFER_BINDING, &s->renderbuffer);
     gl->GetIntegerv(GL_TEXTURE_BUFFER_BINDING, &s->texture_buffer);
     gl->GetIntegerv(GL_VIEWPORT, s->viewport);
+    gl->GetIntegerv(GL_SCISSOR_BOX, s->scissor_box);
     gl->GetIntegerv(GL_DEPTH_FUNC, &s->depth_func);
     gl->GetIntegerv(GL_BLEND_SRC_RGB, &s->blend_src_rgb);
     gl->GetIntegerv(GL_BLEND_DST_RGB, &s->blend_dst_rgb);
@@ -63,6 +64,7 @@ void tc_gl_restore(const tc_gl_saved *s, const tc_gl *gl)
     gl->UseProgram((GLuint)s->program);
     gl->BindVertexArray((GLuint)s->vertex_array);
     gl->Viewport(s->viewport[0], s->viewport[1], s->viewport[2], s->viewport[3]);
+    gl->Scissor(s->scissor_box[0], s->scissor_box[1], s->scissor_box[2], s->scissor_box[3]);
     gl->DepthFunc((GLenum)s->depth_func);
     gl->DepthMask(s->depth_mask);
     gl->ColorMask(s->color_mask[0], s->color_mask[1], s->color_mask[2], s->color_mask[3]);

@@ -8,7 +8,7 @@ enum { TC_SAVED_UNITS = 9 };
 
 typedef struct tc_gl_saved {
     GLint draw_framebuffer, read_framebuffer, program, vertex_array, active_texture, renderbuffer, texture_buffer;
-    GLint viewport[4];
+    GLint viewport[4], scissor_box[4];
     GLint unit_2d[TC_SAVED_UNITS], unit_1d[TC_SAVED_UNITS], unit_3d[TC_SAVED_UNITS], unit_buffer[TC_SAVED_UNITS],
         unit_sampler[TC_SAVED_UNITS];
     GLint depth_func, blend_src_rgb, blend_dst_rgb, blend_src_alpha, blend_dst_alpha, blend_equation, pack_alignment;
