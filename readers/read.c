@@ -2,9 +2,10 @@
  *
  * Request: {"do": "read", "path", "field"?, "association": 0..2, "time"?, "step"?, "refine", "all_ranges"}.
  * Result: {"format", "reader", "field"?, "association"?, "points", "cells", "solid_cells", "dropped_cells",
- * "linearised", "refine", "step", "times": [], "offered": [{"name", "association", "components", "ranged", "lo"?,
- * "hi"?}], "cell_types": [{"type", "dimension", "count"}], "notes": []} and the arrays vertex (f64), tet (i32), cell
- * (i64: the file's cell of each tet), scalar (f64; absent without a field). */
+ * "degenerate", "turned", "unused_points", "merged_points", "linearised", "refine", "step", "times": [], "offered":
+ * [{"name", "association", "components", "ranged", "lo"?, "hi"?}], "cell_types": [{"type", "dimension", "count"}],
+ * "notes": []} and the arrays vertex (f64), tet (i32), cell (i64: the file's cell of each tet), scalar (f64; absent
+ * without a field). */
 #define _GNU_SOURCE
 
 #include "core/memory.h"
@@ -176,6 +177,10 @@ static tc_status attach_source(tc_mesh *mesh, const char *path, const tc_reply *
     mesh->source = source;
     mesh->source_memory = block.base;
     mesh->report.source_cells = count_of(reply->json, "solid_cells");
+    mesh->file = (tc_file_repairs){.degenerate = count_of(reply->json, "degenerate"),
+                                   .turned = count_of(reply->json, "turned"),
+                                   .unused_points = count_of(reply->json, "unused_points"),
+                                   .merged_points = count_of(reply->json, "merged_points")};
     return TC_OK;
 }
 

@@ -138,6 +138,7 @@ int split_mesh(Tets &out, const Gathered &data, int refine, std::vector<std::str
                    [&](const Leaf &leaf, vtkUnstructuredGrid *grid, size_t c, const CellType &type) {
                        const int64_t id = (int64_t)(leaf.first_cell + c);
                        const size_t turned = out.turned_cells, folded = out.folded_cells, centred = out.centred_cells;
+                       const size_t told = out.open_cells + out.refused_cells, made = out.cell.size();
                        int32_t corner[12];
                        if (type.shape == Shape::polyhedron) {
                            split_face_stream(out, leaf, grid, c);
@@ -153,6 +154,7 @@ int split_mesh(Tets &out, const Gathered &data, int refine, std::vector<std::str
                        out.turned_cells = std::min(out.turned_cells, turned + 1);
                        out.folded_cells = std::min(out.folded_cells, folded + 1);
                        out.centred_cells = std::min(out.centred_cells, centred + 1);
+                       out.empty_cells += out.cell.size() == made && out.open_cells + out.refused_cells == told;
                    });
     return refine;
 }
@@ -170,6 +172,44 @@ std::vector<int32_t> compact_points(Tets &tets)
     for (int32_t &v : tets.tet)
         v = number[(size_t)v];
     return used;
+}
+
+LostPoints count_lost_points(const Tets &tets, const Gathered &data, const std::vector<int32_t> &used)
+{
+    LostPoints lost;
+    std::vector<char> in_use(data.n_point, 0), rank_in_use(tets.n_point(), 0);
+    size_t n_used = 0;
+    for (int32_t v : used) {
+        rank_in_use[(size_t)tets.rank[(size_t)v]] = 1;
+        if ((size_t)v < data.n_point)
+            in_use[(size_t)v] = 1, n_used++;
+    }
+    if (n_used == data.n_point)
+        return lost;
+    std::vector<char> in_cell(data.n_point, 0);
+    vtkNew<vtkIdList> list;
+    for (const Leaf &leaf : data.leaf) {
+        vtkUnstructuredGrid *grid = vtkUnstructuredGrid::SafeDownCast(leaf.data);
+        const vtkIdType n = leaf.data->GetNumberOfCells();
+        for (vtkIdType c = 0; c < n; c++) {
+            vtkIdType m = 0;
+            const vtkIdType *id = nullptr;
+            if (grid) {
+                grid->GetCells()->GetCellAtId(c, m, id);
+            } else {
+                leaf.data->GetCellPoints(c, list);
+                m = list->GetNumberOfIds(), id = list->GetPointer(0);
+            }
+            for (vtkIdType i = 0; i < m; i++)
+                in_cell[leaf.first_point + (size_t)id[i]] = 1;
+        }
+    }
+    for (size_t v = 0; v < data.n_point; v++)
+        if (!in_cell[v])
+            lost.unused++;
+        else if (!in_use[v] && rank_in_use[(size_t)tets.rank[v]])
+            lost.merged++;
+    return lost;
 }
 
 } // namespace tetcast

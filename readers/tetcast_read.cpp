@@ -109,8 +109,6 @@ void note_split(std::vector<std::string> &notes, const Gathered &data, const Tet
     if (data.n_curved && refine == 0)
         notes.push_back(counted(data.n_curved, "cell of higher order was", "cells of higher order were") +
                         " made linear by their corners (--refine N keeps more of the curve)");
-    if (tets.turned_cells)
-        notes.push_back(counted(tets.turned_cells, "cell was", "cells were") + " inside out and turned");
     if (tets.folded_cells)
         notes.push_back(counted(tets.folded_cells, "cell is", "cells are") + " folded over; the tets overlap there");
     if (tets.centred_cells)
@@ -150,6 +148,7 @@ void read(tc_serve *serve, json_t *json)
         throw Refusal(request.path + ": none of its " + std::to_string(data.n_solid) +
                       " 3-D cells has a volume: they are collapsed, or polyhedra that are not closed");
     const std::vector<int32_t> used = compact_points(tets);
+    const LostPoints lost = count_lost_points(tets, data, used);
 
     talk.progress("field", -1);
     std::vector<double> vertex(3 * used.size());
@@ -177,6 +176,10 @@ void read(tc_serve *serve, json_t *json)
     json_object_set_new(result.get(), "solid_cells", json_integer((json_int_t)data.n_solid));
     json_object_set_new(result.get(), "dropped_cells",
                         json_integer((json_int_t)(data.n_cell - data.n_solid + tets.refused_cells + tets.open_cells)));
+    json_object_set_new(result.get(), "degenerate", json_integer((json_int_t)tets.empty_cells));
+    json_object_set_new(result.get(), "turned", json_integer((json_int_t)tets.turned_cells));
+    json_object_set_new(result.get(), "unused_points", json_integer((json_int_t)lost.unused));
+    json_object_set_new(result.get(), "merged_points", json_integer((json_int_t)lost.merged));
     json_object_set_new(result.get(), "linearised", json_boolean(data.n_curved > 0));
     json_object_set_new(result.get(), "refine", json_integer(refined));
     json_object_set_new(result.get(), "step", json_integer(loaded.step));

@@ -38,6 +38,7 @@ class Tets
     size_t refused_cells = 0; // polyhedra that could not be filled
     size_t centred_cells = 0; // cells that got a point inside
     size_t open_cells = 0;    // polyhedra whose faces do not close
+    size_t empty_cells = 0;   // cells that repeat so many points that no tet is left
 
     const double *at(int32_t id) const { return &point[3 * (size_t)id]; }
     size_t n_point() const { return point.size() / 3; }

@@ -102,13 +102,13 @@ typedef struct tc_mesh_report {
     size_t n_steiner;            /* points TetGen added, in imaginary tets only */
     size_t n_boundary_face;      /* faces of real tets without a real neighbour */
     size_t n_component;          /* face-connected parts */
-    size_t dropped_degenerate;   /* tets that repeated a vertex */
+    size_t dropped_degenerate;   /* tets, of a file cells, that repeated vertices so that nothing was left */
     size_t dropped_nonfinite;    /* tets with a non-finite vertex */
     size_t dropped_duplicate;    /* tets equal to another one */
-    size_t reoriented;           /* tets turned to positive volume */
+    size_t reoriented;           /* tets, of a file cells, turned to positive volume */
     size_t zero_volume;          /* tets of zero volume, kept */
     size_t merged_vertices;      /* coincident points merged */
-    size_t unused_vertices;      /* points no tet uses, dropped */
+    size_t unused_vertices;      /* points no tet, of a file no cell, uses; dropped */
     size_t unlinked_faces;       /* faces with three cells, or two on one side */
     size_t nonfinite_scalars;    /* NaN or Inf values */
     bool convex;                 /* the real tets alone fill their hull */
@@ -119,7 +119,7 @@ typedef struct tc_mesh_report {
     double longest_edge;         /* of real tets */
     double volume;               /* sum over real tets */
     tc_association association;
-    double ms_check, ms_adjacency, ms_order, ms_convexify;
+    double ms_check, ms_adjacency, ms_order, ms_convexify; /* NaN: not measured, nothing of the kind was done */
     size_t source_cells;         /* cells of the file before splitting, 3-D only; n_tet for meshes from arrays */
 } tc_mesh_report;
 

@@ -26,13 +26,14 @@ typedef struct tc_defect {
 
 #define AT(member) offsetof(tc_mesh_report, member)
 static const tc_defect tc_defect_list[] = {
-    {"dropped_degenerate", "tets use a point twice and were dropped", AT(dropped_degenerate)},
+    {"dropped_degenerate", "cells repeat a point so that nothing is left of them, and were dropped",
+     AT(dropped_degenerate)},
     {"dropped_nonfinite", "tets have a point that is not finite and were dropped", AT(dropped_nonfinite)},
     {"dropped_duplicate", "tets are there more than once; the copies were dropped", AT(dropped_duplicate)},
-    {"reoriented", "tets were inverted and have been turned", AT(reoriented)},
+    {"reoriented", "cells were inverted (inside out) and have been turned", AT(reoriented)},
     {"zero_volume", "tets have no volume; they stay, since they keep their neighbours joined", AT(zero_volume)},
     {"merged_vertices", "points coincided with another and were merged with it", AT(merged_vertices)},
-    {"unused_vertices", "points belong to no tet and were dropped", AT(unused_vertices)},
+    {"unused_vertices", "points belong to no cell and were dropped", AT(unused_vertices)},
     {"unlinked_faces", "faces have three cells, or two on one side; rays leave and enter again there",
      AT(unlinked_faces)},
     {"nonfinite_scalars", "values of the field are NaN or infinite", AT(nonfinite_scalars)},
@@ -234,8 +235,7 @@ json_t *tc_info_json(const tc_info *info)
         tc_json_measured(time, "check", info->report.ms_check);
         tc_json_measured(time, "adjacency", info->report.ms_adjacency);
         tc_json_measured(time, "order", info->report.ms_order);
-        if (info->report.ms_convexify > 0)
-            tc_json_measured(time, "convexify", info->report.ms_convexify);
+        tc_json_measured(time, "convexify", info->report.ms_convexify);
     }
     json_object_set_new(json, "time_ms", time);
     return json;

@@ -100,6 +100,10 @@ static char *tc_notes_text(const tc_render_run *run)
     }
     if (source && source->dropped_cells)
         fprintf(stream, "%zu cells were left out; ", source->dropped_cells);
+    if (report->dropped_degenerate)
+        fprintf(stream, "%zu cells that repeat a point were dropped; ", report->dropped_degenerate);
+    if (report->reoriented)
+        fprintf(stream, "%zu inverted cells were turned; ", report->reoriented);
     if (report->nonfinite_scalars)
         fprintf(stream, "%zu values are not finite; ", report->nonfinite_scalars);
     for (size_t i = 0; source && i < source->n_note; i++)

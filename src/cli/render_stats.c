@@ -71,8 +71,7 @@ static json_t *tc_time_json(const tc_render_run *run)
     tc_json_measured(time, "check", report->ms_check);
     tc_json_measured(time, "adjacency", report->ms_adjacency);
     tc_json_measured(time, "order", report->ms_order);
-    if (report->ms_convexify > 0) /* 0: there was nothing to fill, or peeling was asked for */
-        tc_json_measured(time, "convexify", report->ms_convexify);
+    tc_json_measured(time, "convexify", report->ms_convexify);
     tc_json_measured(time, "pack", run->first.ms_pack);
     tc_json_measured(time, "upload", run->first.ms_upload);
     tc_json_measured(time, "table", run->first.ms_table);

@@ -73,6 +73,7 @@ tc_status tc_mesh_create(tc_mesh **out, const tc_mesh_arrays *arrays, tc_error *
     m->scalar_serial = tc_mesh_new_serial();
     m->report.n_vertex = m->n_vertex;
     m->report.n_tet = m->report.source_cells = m->n_tet;
+    m->report.ms_check = m->report.ms_adjacency = m->report.ms_order = m->report.ms_convexify = NAN;
     status = tc_mesh_measure(m, 1, err);
     if (status != TC_OK) {
         tc_mesh_destroy(&m);

@@ -9,6 +9,14 @@
 
 #include "core/status.h"
 
+/* What a reader repaired before the mesh was made; the report counts it with tc_mesh_prepare's own repairs. */
+typedef struct tc_file_repairs {
+    size_t degenerate;    /* cells that repeat so many points that nothing is left */
+    size_t turned;        /* cells of negative volume */
+    size_t unused_points; /* points of no cell */
+    size_t merged_points; /* points replaced by one at the same place */
+} tc_file_repairs;
+
 struct tc_mesh {
     size_t n_vertex;    /* Steiner points last */
     double *vertex;     /* [n_vertex][3] */
@@ -32,8 +40,9 @@ struct tc_mesh {
     uint64_t scalar_serial; /* changes with values */
     tc_mesh_report report;
 
-    tc_source *source;   /* what the file held; NULL for arrays; a block of its own, free() */
-    void *source_memory; /* everything source points into: one block, free() */
+    tc_file_repairs file; /* zero for arrays */
+    tc_source *source;    /* what the file held; NULL for arrays; a block of its own, free() */
+    void *source_memory;  /* everything source points into: one block, free() */
 };
 
 /* Sets the report's scalar_range and nonfinite_scalars from the values; both ends are 0 when none is finite. */

@@ -9,6 +9,7 @@
 #include "mesh/predicate.h"
 #include "mesh/repair.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -88,9 +89,14 @@ static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const
     for (size_t i = 0; i < 4 * next.n_tet; i++)
         r->n_boundary_face += next.neighbour[i] < 0;
     tc_mesh_measure_scalar(&next);
+    next.file = mesh->file;
+    r->dropped_degenerate += next.file.degenerate;
+    r->reoriented += next.file.turned;
+    r->unused_vertices += next.file.unused_points;
+    r->merged_vertices += next.file.merged_points;
     r->reentry = TC_REENTRY_PEEL;
     r->ms_check = t1 - t0 + tc_now_ms() - t3;
-    r->ms_order = t2 - t1, r->ms_adjacency = t3 - t2;
+    r->ms_order = t2 - t1, r->ms_adjacency = t3 - t2, r->ms_convexify = NAN;
 
     next.field_name = mesh->field_name;
     next.source = mesh->source, next.source_memory = mesh->source_memory;
@@ -109,21 +115,22 @@ static tc_status fill_gaps(tc_mesh *m, const tc_prepare_options *o, const tc_log
     tc_mesh_report *r = &m->report;
     tc_boundary boundary;
     tc_error own = {0};
-    double start = tc_now_ms();
     tc_mesh_strip(m);
     r->reentry = m->asked = TC_REENTRY_PEEL;
     r->reentry_why[0] = 0;
+    r->ms_convexify = NAN;
     m->serial = tc_mesh_new_serial();
     tc_status status = tc_boundary_build(&boundary, m, m->n_tet, err);
     if (status != TC_OK)
         return status;
     r->convex = tc_boundary_is_convex(&boundary, m->vertex, tc_boundary_rounding(r->bounds));
     if (o->reentry != TC_REENTRY_PEEL && !r->convex) {
+        double start = tc_now_ms();
         tc_progress(log, "filling gaps", -1);
         status = tc_mesh_convexify(m, &boundary, o->convexify_limit_s, o->threads, log, &own);
+        r->ms_convexify = tc_now_ms() - start;
     }
     tc_boundary_finish(&boundary);
-    r->ms_convexify = tc_now_ms() - start;
     if (status != TC_OK) {
         snprintf(r->reentry_why, sizeof r->reentry_why, "%.*s", (int)sizeof r->reentry_why - 1, own.text);
         if (o->reentry == TC_REENTRY_CONVEXIFY || status == TC_E_MEMORY)

@@ -49,10 +49,14 @@ LOOKUP_TABLE default
 VTK
 run 0 info odd.vtk
 prints "triangle (left out"
-prints "notes"
+prints "1 cells were inverted"
+prints "1 points belong to no cell"
+run 0 render odd.vtk --size 8x8 -o odd.png --stats odd_stats.json
+json odd_stats.json eq mesh.dropped_cells 1
 run 0 info --json odd.vtk
 cp out odd.json
 json odd.json eq mesh.tets 2 eq source.dropped_cells 1 eq mesh.points 5 eq mesh.range.0 0 eq mesh.range.1 4 \
+    eq mesh.defects.reoriented 1 eq mesh.defects.unused_vertices 1 eq mesh.defects.dropped_degenerate 0 \
     eq source.field heat ge mesh.volume 0.49 le mesh.volume 0.51
 
 if [ -d "$data" ]; then

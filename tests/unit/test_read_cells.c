@@ -399,6 +399,42 @@ static void test_open_polyhedra_are_not_counted(void **state)
     tc_mesh_destroy(&m);
 }
 
+static void test_repairs_of_the_reader_are_not_reported(void **state)
+{
+    (void)state;
+    static grid g;
+    memset(&g, 0, sizeof g);
+    for (int i = 0; i < 8; i++)
+        add_point(&g, i & 1, i >> 1 & 1, i >> 2);
+    add_point(&g, 5, 5, 5);                   /* of no cell */
+    add_point(&g, 6, 6, 6);                   /* of a triangle: left out, but no defect */
+    add_cell(&g, 10, 4, (int[]){0, 1, 2, 4}); /* sound */
+    add_cell(&g, 10, 4, (int[]){1, 2, 3, 7}); /* turned */
+    add_cell(&g, 10, 4, (int[]){4, 5, 5, 7}); /* repeats a point */
+    add_cell(&g, 10, 4, (int[]){4, 6, 6, 6}); /* repeats a point */
+    add_cell(&g, 5, 3, (int[]){0, 1, 9});
+    add_cell(&g, 12, 8, (int[]){0, 1, 1, 0, 2, 3, 3, 2}); /* a hexahedron collapsed to a face */
+    tc_mesh *m = read_grid(&g, NULL);
+    assert_int_equal(m->n_tet, 2);
+    assert_int_equal(m->report.dropped_degenerate, 0); /* before tc_mesh_prepare */
+    assert_true(isnan(m->report.ms_convexify));
+    tc_mesh_report r = prepared(m);
+    assert_int_equal(r.n_tet, 2);
+    assert_int_equal(r.dropped_degenerate, 3);
+    assert_int_equal(r.reoriented, 1);
+    assert_int_equal(r.unused_vertices, 1);
+    assert_int_equal(r.merged_vertices, 0);
+    assert_true(r.ms_check >= 0);
+    assert_true(isnan(r.ms_convexify)); /* peeling: nothing was filled */
+    /* Another way over the gaps does not count them again. */
+    tc_error err = {0};
+    assert_int_equal(tc_mesh_prepare(m, &(tc_prepare_options){.reentry = TC_REENTRY_AUTO, .threads = 1}, NULL, &err),
+                     TC_OK);
+    assert_int_equal(m->report.dropped_degenerate, 3);
+    assert_int_equal(m->report.reoriented, 1);
+    tc_mesh_destroy(&m);
+}
+
 /* ------------------------------------------------------------------------------------------ curved cells */
 
 /* The ten nodes of a quadratic tet; bulge moves the middles of its edges outwards. */
@@ -573,6 +609,7 @@ int main(void)
         cmocka_unit_test(test_schoenhardt_polyhedron_is_refused),
         cmocka_unit_test(test_points_inside_lose_linear_data),
         cmocka_unit_test(test_open_polyhedra_are_not_counted),
+        cmocka_unit_test(test_repairs_of_the_reader_are_not_reported),
         cmocka_unit_test(test_refinement_loses_quadratic_data),
         cmocka_unit_test(test_refinement_does_not_follow_the_curve),
         cmocka_unit_test(test_orders_and_shapes_have_other_parameters),
