@@ -1,0 +1,176 @@
+/* test_gpu_pack.c: the packed records, judged from the mesh alone. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "core/vec.h"
+#include "gpu/pack.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static tc_mesh *synth(const char *name, size_t n_cells)
+{
+    tc_mesh *mesh;
+    tc_error err = {0};
+    const tc_prepare_options options = {.reentry = TC_REENTRY_AUTO};
+    if (tc_synth_create(&mesh, name, n_cells, 3, &err) != TC_OK || tc_mesh_prepare(mesh, &options, NULL, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    return mesh;
+}
+
+static tc_pack pack_of(const tc_mesh *mesh)
+{
+    tc_pack pack;
+    tc_error err = {0};
+    if (tc_pack_build(&pack, mesh, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    return pack;
+}
+
+/* What the shader does (mesh.glsl), from the record alone. */
+static int32_t fourth(const tc_pack *p, int32_t record, const int32_t *face)
+{
+    return p->cell[record] ^ face[0] ^ face[1] ^ face[2];
+}
+
+static int32_t behind(const tc_pack *p, int32_t record, int32_t dropped, const int32_t *face)
+{
+    return p->cell[record + 1 + (dropped > face[0]) + (dropped > face[1]) + (dropped > face[2])];
+}
+
+static void check_records(const char *name, size_t n_cells)
+{
+    tc_mesh *mesh = synth(name, n_cells);
+    tc_pack p = pack_of(mesh);
+    assert_int_equal(p.n_cell, mesh->n_tet + mesh->n_imaginary);
+    assert_int_equal(p.n_real, mesh->n_tet);
+    assert_int_equal(p.n_vertex, mesh->n_vertex);
+    size_t outside = 0;
+    for (size_t i = 0; i < p.n_cell; i++)
+        for (int f = 0; f < 4; f++) {
+            const int32_t *tet = mesh->tet + 4 * i;
+            const int32_t face[3] = {tet[(f + 1) & 3], tet[(f + 2) & 3], tet[(f + 3) & 3]};
+            int32_t record = (int32_t)i * TC_PACK_CELL_INTS, next = behind(&p, record, tet[f], face);
+            assert_int_equal(fourth(&p, record, face), tet[f]);
+            if (mesh->neighbour[4 * i + (size_t)f] < 0) {
+                assert_int_equal(next, -1);
+                outside++;
+                continue;
+            }
+            assert_int_equal(next, mesh->neighbour[4 * i + (size_t)f] * TC_PACK_CELL_INTS);
+            assert_int_equal(behind(&p, next, fourth(&p, next, face), face), record); /* and back */
+        }
+    assert_int_equal(p.n_face, outside);
+    tc_pack_finish(&p);
+    tc_mesh_destroy(&mesh);
+}
+
+static void a_step_leads_to_another_vertex_or_cell(void **state)
+{
+    (void)state;
+    check_records("kuhn", 1500);
+    check_records("shells", 3000);
+    check_records("two", 0);
+    check_records("tet", 0);
+}
+
+static void boundary_faces_look_inside(void **state)
+{
+    (void)state;
+    tc_mesh *mesh = synth("ball", 3000); /* convex around the origin */
+    tc_pack p = pack_of(mesh);
+    for (size_t i = 0; i < p.n_face; i++) {
+        const int32_t *face = p.face + 4 * i;
+        double ab[3], ac[3], normal[3], at[3];
+        const double *a = mesh->vertex + 3 * face[0], *b = mesh->vertex + 3 * face[1], *c = mesh->vertex + 3 * face[2];
+        tc_vec_sub(ab, b, a);
+        tc_vec_sub(ac, c, a);
+        tc_vec_cross(normal, ab, ac);
+        for (int k = 0; k < 3; k++)
+            at[k] = (a[k] + b[k] + c[k]) / 3;
+        assert_true(tc_vec_dot(normal, at) > 0);
+        assert_int_equal(behind(&p, face[3], fourth(&p, face[3], face), face), -1);
+        for (int k = 0; k < 3; k++)
+            assert_memory_equal(p.face_corner + 9 * i + 3 * k, p.vertex + 4 * face[k], 3 * sizeof(float));
+    }
+    tc_pack_finish(&p);
+    tc_mesh_destroy(&mesh);
+}
+
+static void positions_are_rounded_more_than_once(void **state)
+{
+    (void)state;
+    static const double vertex[5][3] = {{1e7, 1e7, 1e7},
+                                        {1e7 + 1, 1e7, 1e7},
+                                        {1e7, 1e7 + 1, 1e7},
+                                        {1e7, 1e7, 1e7 + 2},
+                                        {1e7 + 0.3, 1e7 + 0.4, 1e7 + 0.7}};
+    static const int32_t tet[4][4] = {{0, 1, 2, 4}, {0, 1, 3, 4}, {0, 2, 3, 4}, {1, 2, 3, 4}};
+    static const double scalar[5] = {-3, NAN, 5, INFINITY, 1};
+    const tc_mesh_arrays arrays = {5, &vertex[0][0], 4, &tet[0][0], scalar, TC_POINT_DATA, "f"};
+    tc_mesh *mesh;
+    assert_int_equal(tc_mesh_create(&mesh, &arrays, NULL), TC_OK);
+    assert_int_equal(tc_mesh_prepare(mesh, NULL, NULL, NULL), TC_OK);
+    tc_pack p = pack_of(mesh);
+    double half = 0.5 * sqrt(1 + 1 + 4);
+    assert_true(fabs(p.scale * half - 1) < 1e-12);
+    assert_true(p.scalar_lo == -3 && p.scalar_hi == 5);
+    for (int i = 0; i < 5; i++) {
+        const double center[3] = {1e7 + 0.5, 1e7 + 0.5, 1e7 + 1};
+        const float *v = p.vertex + 4 * mesh->vertex_of_source[i];
+        for (int k = 0; k < 3; k++)
+            assert_true(fabs(v[k] - (vertex[i][k] - center[k]) / half) <= 0x1p-24);
+        if (isfinite(scalar[i]))
+            assert_true(v[3] == (float)((scalar[i] + 3) / 8));
+        else
+            assert_true(isnan(v[3]));
+    }
+    tc_pack_finish(&p);
+    tc_mesh_destroy(&mesh);
+}
+
+static void cell_data_belong_to_other_cells(void **state)
+{
+    (void)state;
+    tc_mesh *mesh = synth("kuhn", 500);
+    double *value = malloc(mesh->n_tet_source * sizeof *value);
+    assert_non_null(value);
+    for (size_t i = 0; i < mesh->n_tet_source; i++)
+        value[i] = (double)i;
+    assert_int_equal(tc_mesh_set_scalar(mesh, value, TC_CELL_DATA, NULL), TC_OK);
+    tc_pack p = pack_of(mesh);
+    assert_non_null(p.cell_scalar);
+    for (size_t i = 0; i < mesh->n_tet_source; i++)
+        assert_true(p.cell_scalar[mesh->tet_of_source[i]] == (float)((double)i / (double)(mesh->n_tet_source - 1)));
+    for (size_t i = 0; i < p.n_vertex; i++)
+        assert_true(p.vertex[4 * i + 3] == 0);
+    free(value);
+    tc_pack_finish(&p);
+    tc_mesh_destroy(&mesh);
+}
+
+static void an_unprepared_mesh_is_packed(void **state)
+{
+    (void)state;
+    tc_mesh *mesh;
+    tc_pack p;
+    tc_error err = {0};
+    assert_int_equal(tc_synth_create(&mesh, "two", 0, 0, NULL), TC_OK);
+    assert_int_equal(tc_pack_build(&p, mesh, &err), TC_E_ARG);
+    assert_non_null(strstr(err.text, "tc_mesh_prepare"));
+    tc_mesh_destroy(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_step_leads_to_another_vertex_or_cell), cmocka_unit_test(boundary_faces_look_inside),
+        cmocka_unit_test(positions_are_rounded_more_than_once),   cmocka_unit_test(cell_data_belong_to_other_cells),
+        cmocka_unit_test(an_unprepared_mesh_is_packed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,267 @@
+/* test_gpu_program.c: assembling programs from the shader files, and that a program holds only what its scene needs. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "gpu/context.h"
+#include "gpu/job.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *file_text(const char *name)
+{
+    for (const tc_shader_file *f = tc_shader_files; f->name; f++)
+        if (strcmp(f->name, name) == 0)
+            return f->text;
+    fail_msg("no shader %s", name);
+    return NULL;
+}
+
+static int count(const char *text, const char *what)
+{
+    int n = 0;
+    for (const char *p = text; (p = strstr(p, what)); p += strlen(what))
+        n++;
+    return n;
+}
+
+/* The line of a file, from 1, that holds the text. */
+static int line_of(const char *file, const char *what)
+{
+    const char *text = file_text(file), *at = strstr(text, what);
+    assert_non_null(at);
+    int line = 1;
+    for (const char *p = text; p < at; p++)
+        line += *p == '\n';
+    return line;
+}
+
+static void a_file_is_included_twice_or_not(void **state)
+{
+    (void)state;
+    char *text;
+    tc_error err = {0};
+    if (tc_program_text(&text, "march.frag", "#define COUNT\n", "integrator.glsl=integrate_table.glsl", &err) != TC_OK)
+        fail_msg("%s", err.text);
+    assert_int_equal(strncmp(text, "#version", 8), 0);
+    assert_int_equal(count(text, "#define COUNT\n"), 1);
+    assert_int_equal(count(text, "#include"), 0);
+    assert_int_equal(count(text, "float sign_cross("), 1);
+    assert_int_equal(count(text, "Ray ray_of_pixel("), 1);
+    assert_int_equal(count(text, "Segment walk_step("), 1);
+    assert_int_equal(count(text, "uniform sampler3D tf_table"), 1);
+    assert_int_equal(count(text, "tf_nodes"), 0); /* the other integrator */
+    free(text);
+    if (tc_program_text(&text, "march.frag", "", "integrator.glsl=integrate_integral.glsl", &err) != TC_OK)
+        fail_msg("%s", err.text);
+    assert_true(count(text, "tf_nodes") > 0);
+    assert_int_equal(count(text, "tf_table"), 0);
+    free(text);
+}
+
+static void missing_files_are_not_named(void **state)
+{
+    (void)state;
+    char *text;
+    char expected[64];
+    tc_error err = {0};
+    assert_int_equal(tc_program_text(&text, "absent.frag", "", NULL, &err), TC_E_GL);
+    assert_null(text);
+    assert_non_null(strstr(err.text, "absent.frag"));
+    static const char *const aliases[] = {NULL, "integrator.glsl=absent.glsl"};
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(tc_program_text(&text, "march.frag", "", aliases[i], &err), TC_E_GL);
+        assert_null(text);
+        snprintf(expected, sizeof expected, "march.frag:%d", line_of("march.frag", "#include \"integrator.glsl\""));
+        if (!strstr(err.text, expected))
+            fail_msg("no %s in: %s", expected, err.text);
+    }
+}
+
+static const char *const context_names[] = {"osmesa", "egl"};
+
+/* The context and a cache; false where it is missing. */
+static bool open_context(tc_context **context, tc_program_cache **cache, const char *name)
+{
+    tc_error err = {0};
+    if (tc_context_create(context, name, NULL, &err) != TC_OK) {
+        printf("    %s: %s\n", name, err.text);
+        return false;
+    }
+    assert_int_equal(tc_program_cache_create(cache, &(*context)->gl, &err), TC_OK);
+    return true;
+}
+
+static void compilers_errors_name_another_line(void **state)
+{
+    (void)state;
+    /* A define breaks one line of one file. */
+    static const struct {
+        const char *define, *file, *at;
+    } breaks[] = {
+        {"#define MESH_RECORD 3 3\n", "mesh.glsl", "const int MESH_RECORD"},
+        {"#define SIGN_TINY 3 3\n", "signs.glsl", "const float SIGN_TINY"},
+        {"#define tf_table 3 3\n", "integrate_table.glsl", "uniform sampler3D tf_table"},
+        {"#define out_at 3 3\n", "march.frag", "out vec2 out_at"},
+    };
+    bool any = false;
+    for (int c = 0; c < 2; c++) {
+        tc_context *context;
+        tc_program_cache *cache;
+        if (!open_context(&context, &cache, context_names[c]))
+            continue;
+        any = true;
+        for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
+            const tc_program_source source = {"screen.vert", "march.frag", breaks[i].define,
+                                              "integrator.glsl=integrate_table.glsl"};
+            GLuint program;
+            tc_error err = {0};
+            assert_int_equal(tc_program_get(&program, cache, &source, &err), TC_E_GL);
+            char expected[96];
+            snprintf(expected, sizeof expected, "shader %s:%d:", breaks[i].file, line_of(breaks[i].file, breaks[i].at));
+            if (!strstr(err.text, expected))
+                fail_msg("no \"%s\" in: %s", expected, err.text);
+        }
+        tc_program_cache_destroy(&cache);
+        tc_context_destroy(&context);
+    }
+    if (!any)
+        skip();
+}
+
+/* A job's features as bits. */
+enum { IMAGINARY = 1, PEEL = 2, CELLS = 4, INSIDE = 8, COUNT = 16, TABLE = 32, EXTEND = 64, N_FEATURES = 128 };
+
+static tc_job job_of(int features, const tc_frame *frame)
+{
+    return (tc_job){.frame = frame,
+                    .integrator = features & TABLE ? TC_INTEGRATOR_TABLE : TC_INTEGRATOR_INTEGRAL,
+                    .has_imaginary = features & IMAGINARY,
+                    .peel = features & PEEL,
+                    .cell_data = features & CELLS,
+                    .extend = features & EXTEND,
+                    .count = features & COUNT};
+}
+
+static GLuint get(tc_program_cache *cache, const char *vertex, const char *fragment, const tc_job *job)
+{
+    char defines[512];
+    tc_job_defines(defines, sizeof defines, job);
+    const tc_program_source source = {vertex, fragment, defines,
+                                      job->integrator == TC_INTEGRATOR_TABLE
+                                          ? "integrator.glsl=integrate_table.glsl"
+                                          : "integrator.glsl=integrate_integral.glsl"};
+    GLuint program;
+    tc_error err = {0};
+    if (tc_program_get(&program, cache, &source, &err) != TC_OK)
+        fail_msg("%s with\n%s: %s", fragment, defines, err.text);
+    return program;
+}
+
+static void expect_uniform(const tc_gl *gl, GLuint program, const char *name, bool expected, int features)
+{
+    bool there = gl->GetUniformLocation(program, name) >= 0;
+    if (there != expected)
+        fail_msg("%s is %s a program with features %d", name, there ? "in" : "missing from", features);
+}
+
+static void a_program_holds_what_its_scene_does_not_need(void **state)
+{
+    (void)state;
+    tc_context *context;
+    tc_program_cache *cache;
+    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
+        skip();
+    const tc_gl *gl = &context->gl;
+    static const int each[] = {0,
+                               IMAGINARY,
+                               PEEL,
+                               CELLS,
+                               INSIDE,
+                               COUNT,
+                               TABLE,
+                               TABLE | EXTEND,
+                               EXTEND,
+                               IMAGINARY | CELLS | INSIDE | COUNT,
+                               PEEL | CELLS | TABLE | COUNT,
+                               N_FEATURES - 1};
+    for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
+        int f = each[i];
+        tc_frame frame = {.eye_inside = f & INSIDE};
+        tc_job job = job_of(f, &frame);
+        GLuint march = get(cache, "screen.vert", "march.frag", &job);
+        expect_uniform(gl, march, "mesh_real", f & IMAGINARY, f);
+        expect_uniform(gl, march, "mesh_cell_scalar", f & CELLS, f);
+        expect_uniform(gl, march, "state_steps", f & COUNT, f);
+        expect_uniform(gl, march, "tf_table", f & TABLE, f);
+        expect_uniform(gl, march, "tf_nodes", !(f & TABLE), f);
+        expect_uniform(gl, march, "peel_key", false, f);
+        GLuint first = get(cache, "first_hit.vert", "first_hit.frag", &job);
+        expect_uniform(gl, first, "peel_key", f & PEEL, f);
+        expect_uniform(gl, first, "mesh_real", false, f);
+        expect_uniform(gl, first, "tf_table", false, f);
+        expect_uniform(gl, first, "tf_nodes", false, f);
+        assert_int_equal(get(cache, "screen.vert", "march.frag", &job), march); /* equal text, the same program */
+        get(cache, "screen.vert", "resolve.frag", &job);
+    }
+    tc_program_cache_destroy(&cache);
+    tc_context_destroy(&context);
+}
+
+static void a_plain_scene_defines_anything(void **state)
+{
+    (void)state;
+    const tc_frame outside = {.eye_inside = false}, inside = {.eye_inside = true};
+    char defines[512];
+    tc_job job = job_of(TABLE, &outside);
+    tc_job_defines(defines, sizeof defines, &job);
+    assert_string_equal(defines, "");
+    job = job_of(N_FEATURES - 1, &inside);
+    tc_job_defines(defines, sizeof defines, &job);
+    static const char *const all[] = {"HAS_IMAGINARY", "PEEL", "CELL_DATA", "EYE_CLIP", "COUNT"};
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(count(defines, all[i]), 1);
+}
+
+static void some_shader_does_not_compile(void **state)
+{
+    (void)state;
+    tc_context *context;
+    tc_program_cache *cache;
+    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
+        skip();
+    for (int f = 0; f < N_FEATURES; f += 3) { /* odd steps meet every pair of features */
+        tc_frame frame = {.eye_inside = f & INSIDE};
+        for (int way = 0; way < 4; way++) {
+            tc_job job = job_of(f, &frame);
+            job.thick = way & 1 ? 0.25 : 0;
+            job.nonfinite = way & 1;
+            job.software = way & 2;
+            get(cache, "screen.vert", "march.frag", &job);
+            get(cache, "first_hit.vert", "first_hit.frag", &job);
+        }
+    }
+    const tc_frame outside = {.eye_inside = false};
+    const tc_job none = {.frame = &outside};
+    get(cache, "screen.vert", "lock.frag", &none);
+    get(cache, "screen.vert", "copy.frag", &none);
+    tc_program_cache_destroy(&cache);
+    tc_context_destroy(&context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_is_included_twice_or_not),
+        cmocka_unit_test(missing_files_are_not_named),
+        cmocka_unit_test(compilers_errors_name_another_line),
+        cmocka_unit_test(a_program_holds_what_its_scene_does_not_need),
+        cmocka_unit_test(a_plain_scene_defines_anything),
+        cmocka_unit_test(some_shader_does_not_compile),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,336 @@
+/* test_gpu_propose.c: proposed pixels against every face asked in double for every pixel; the frame's accuracy. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "core/vec.h"
+#include "gpu/propose.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 40, HEIGHT = 30 };
+
+typedef struct fixture {
+    tc_mesh *mesh;
+    tc_pack pack;
+} fixture;
+
+static fixture make(tc_mesh *mesh)
+{
+    fixture f = {.mesh = mesh};
+    tc_error err = {0};
+    const tc_prepare_options options = {.reentry = TC_REENTRY_PEEL};
+    if (tc_mesh_prepare(mesh, &options, NULL, &err) != TC_OK || tc_pack_build(&f.pack, mesh, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    return f;
+}
+
+static fixture synth(const char *name, size_t n_cells)
+{
+    tc_mesh *mesh;
+    tc_error err = {0};
+    if (tc_synth_create(&mesh, name, n_cells, 2, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    return make(mesh);
+}
+
+/* Needles and flat triangles, some of a millionth of the mesh's size. */
+static fixture needles(void)
+{
+    enum { N = 60 };
+    static double vertex[4 * N][3];
+    static int32_t tet[N][4];
+    uint64_t seed = 11;
+    for (int i = 0; i < N; i++) {
+        double u[9];
+        for (int k = 0; k < 9; k++) {
+            seed = seed * 6364136223846793005u + 1442695040888963407u;
+            u[k] = (double)(seed >> 11) * 0x1p-52 - 1;
+        }
+        const double thin = pow(10, -1 - i % 6);
+        for (int v = 0; v < 4; v++) {
+            tet[i][v] = 4 * i + v;
+            for (int k = 0; k < 3; k++)
+                vertex[4 * i + v][k] = u[k] + (v == 1 ? u[3 + k] : v == 2 ? thin * u[6 + k] : 0);
+        }
+        vertex[4 * i + 3][i % 3] += i % 2 ? thin : 0.1;
+    }
+    const tc_mesh_arrays arrays = {4 * N, &vertex[0][0], N, &tet[0][0], NULL, TC_POINT_DATA, NULL};
+    tc_mesh *mesh;
+    assert_int_equal(tc_mesh_create(&mesh, &arrays, NULL), TC_OK);
+    return make(mesh);
+}
+
+static void finish(fixture *f)
+{
+    tc_pack_finish(&f->pack);
+    tc_mesh_destroy(&f->mesh);
+}
+
+/* Whether the ray of the frame (mesh space, double) enters through the face: all crosses positive around it. */
+static bool enters(const float *corner, const double *o, const double *u, const double *v)
+{
+    double p[3][2];
+    for (int k = 0; k < 3; k++) {
+        double r[3];
+        for (int a = 0; a < 3; a++)
+            r[a] = corner[3 * k + a] - o[a];
+        p[k][0] = tc_vec_dot(r, u);
+        p[k][1] = tc_vec_dot(r, v);
+    }
+    for (int k = 0; k < 3; k++)
+        if (!(p[k][0] * p[(k + 1) % 3][1] - p[k][1] * p[(k + 1) % 3][0] > 0))
+            return false;
+    return true;
+}
+
+/* Is the pixel's centre in the triangle, edges included? */
+static bool covers(const tc_proposal *t, double x, double y)
+{
+    int positive = 0, negative = 0;
+    for (int k = 0; k < 3; k++) {
+        const tc_proposal *a = &t[k], *b = &t[(k + 1) % 3];
+        double c = ((double)b->x - a->x) * (y - a->y) - ((double)b->y - a->y) * (x - a->x);
+        positive += c > 0;
+        negative += c < 0;
+    }
+    return !positive || !negative;
+}
+
+static size_t check(const fixture *f, const tc_camera *camera)
+{
+    tc_rays rays;
+    tc_frame frame;
+    tc_proposals proposals = {0};
+    tc_error err = {0};
+    if (tc_rays_from_camera(&rays, camera, WIDTH, HEIGHT, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    tc_frame_build(&frame, &rays, f->pack.center, f->pack.scale);
+    assert_int_equal(tc_propose(&proposals, &frame, WIDTH, HEIGHT, f->pack.face_corner, f->pack.n_face, &err), TC_OK);
+    assert_int_equal(proposals.n % 3, 0);
+    size_t *first = calloc(f->pack.n_face + 1, sizeof *first), hits = 0;
+    assert_non_null(first);
+    for (size_t i = 0; i < proposals.n; i++)
+        first[proposals.corner[i].face + 1]++;
+    for (size_t i = 0; i < f->pack.n_face; i++)
+        first[i + 1] += first[i];
+    for (size_t i = 0; i + 1 < proposals.n; i++)
+        assert_true(proposals.corner[i].face <= proposals.corner[i + 1].face);
+    for (int i = 0; i < WIDTH * HEIGHT && !frame.behind; i++) {
+        double X = i % WIDTH + 0.5, Y = i / WIDTH + 0.5, o[3], d[3], u[3], v[3];
+        for (int k = 0; k < 3; k++) {
+            o[k] = frame.point[k] + X * frame.point_dx[k] + Y * frame.point_dy[k];
+            d[k] = frame.direction[k] + X * frame.direction_dx[k] + Y * frame.direction_dy[k];
+        }
+        tc_vec_normalize(d);
+        tc_vec_cross(u, d, frame.up);
+        tc_vec_normalize(u);
+        tc_vec_cross(v, u, d);
+        for (size_t face = 0; face < f->pack.n_face; face++) {
+            if (!enters(f->pack.face_corner + 9 * face, o, u, v))
+                continue;
+            /* Behind an eye outside the mesh nothing is entered. */
+            double depth = 0;
+            for (int k = 0; k < 3; k++)
+                for (int a = 0; a < 3; a++)
+                    depth += (f->pack.face_corner[9 * face + 3 * (size_t)k + (size_t)a] - o[a]) * d[a];
+            bool from_eye = !rays.parallel && tc_vec_length(frame.point_dx) == 0;
+            if (from_eye && !frame.eye_inside && depth < 0)
+                continue;
+            hits++;
+            bool proposed = false;
+            for (size_t k = first[face]; k < first[face + 1] && !proposed; k += 3)
+                proposed = covers(proposals.corner + k, X / WIDTH * 2 - 1, Y / HEIGHT * 2 - 1);
+            if (!proposed)
+                fail_msg("face %zu is entered at pixel %d, %d but was not proposed there", face, i % WIDTH, i / WIDTH);
+        }
+    }
+    free(first);
+    tc_proposals_finish(&proposals);
+    return hits;
+}
+
+static size_t check_views(const fixture *f)
+{
+    static const double from[4][3] = {{0.3, 0.5, 1}, {1, 0, 0}, {-0.3, 0.2, -0.9}, {0.1, 1, 0.2}};
+    static const double distance[] = {0.02, 0.3, 0.6, 1, 3, 1e3, 1e6}; /* of the diagonal */
+    tc_mesh_report r;
+    tc_mesh_get_report(&r, f->mesh);
+    size_t hits = 0;
+    for (int k = 0; k < 4; k++) {
+        const double up[3] = {0, 0.8, 0.6};
+        tc_camera camera = {0};
+        tc_camera_reset(&camera, r.bounds, from[k], up, 30, (double)WIDTH / HEIGHT);
+        double to[3], diagonal = 2 / f->pack.scale;
+        tc_vec_sub(to, camera.position, camera.focal_point);
+        tc_vec_normalize(to);
+        for (size_t i = 0; i < sizeof distance / sizeof *distance; i++) {
+            tc_camera moved = camera;
+            tc_vec_mul_add(moved.position, camera.focal_point, distance[i] * diagonal, to);
+            moved.view_angle = distance[i] < 1 ? 100 : 60 / distance[i];
+            hits += check(f, &moved);
+            for (int a = 0; a < 3 && distance[i] < 1; a++) /* looking past the middle, and away */
+                moved.focal_point[a] += diagonal * (a == k % 3 ? 1.5 : -0.3);
+            if (distance[i] < 1)
+                hits += check(f, &moved);
+        }
+        camera.parallel = true;
+        hits += check(f, &camera);
+    }
+    return hits;
+}
+
+static void pixels_that_see_a_face_are_not_proposed(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"kuhn", "ball", "comb"};
+    for (int i = 0; i < 3; i++) {
+        fixture f = synth(names[i], i == 2 ? 3000 : 600);
+        assert_true(check_views(&f) > 5000);
+        finish(&f);
+    }
+}
+
+static void needles_are_not_proposed(void **state)
+{
+    (void)state;
+    fixture f = needles();
+    assert_true(check_views(&f) > 500);
+    finish(&f);
+}
+
+static void faces_that_look_away_are_proposed(void **state)
+{
+    (void)state;
+    fixture f = synth("ball", 3000);
+    tc_mesh_report r;
+    tc_mesh_get_report(&r, f.mesh);
+    const double from[3] = {0.3, 0.2, 1}, up[3] = {0, 1, 0};
+    tc_camera camera = {0};
+    tc_camera_reset(&camera, r.bounds, from, up, 30, 1);
+    tc_rays rays;
+    tc_frame frame;
+    tc_proposals proposals = {0};
+    assert_int_equal(tc_rays_from_camera(&rays, &camera, 1024, 1024, NULL), TC_OK);
+    tc_frame_build(&frame, &rays, f.pack.center, f.pack.scale);
+    assert_int_equal(tc_propose(&proposals, &frame, 1024, 1024, f.pack.face_corner, f.pack.n_face, NULL), TC_OK);
+    size_t faces = 0;
+    for (size_t i = 0; i < proposals.n; i++)
+        faces += i == 0 || proposals.corner[i].face != proposals.corner[i - 1].face;
+    assert_true(faces >= f.pack.n_face / 4 && faces <= f.pack.n_face * 6 / 10);
+    /* The whole mesh behind the eye: nothing. */
+    for (int a = 0; a < 3; a++)
+        camera.focal_point[a] = 2 * camera.position[a] - camera.focal_point[a];
+    assert_int_equal(tc_rays_from_camera(&rays, &camera, 1024, 1024, NULL), TC_OK);
+    tc_frame_build(&frame, &rays, f.pack.center, f.pack.scale);
+    assert_true(frame.behind);
+    tc_proposals_finish(&proposals);
+    finish(&f);
+}
+
+/* ----------------------------------------------------------------------------------------------------- frame */
+
+/* Distance of the point o (mesh space) from the world's line, in half diagonals. */
+static double off_line(const double *o, const double *origin, const double *direction, const tc_pack *p)
+{
+    double world[3], along[3], off[3];
+    for (int k = 0; k < 3; k++)
+        world[k] = o[k] / p->scale + p->center[k] - origin[k];
+    double t = tc_vec_dot(world, direction);
+    for (int k = 0; k < 3; k++)
+        along[k] = t * direction[k];
+    tc_vec_sub(off, world, along);
+    return tc_vec_length(off) * p->scale;
+}
+
+static void rays_of_the_frame_are_beside_the_cameras(void **state)
+{
+    (void)state;
+    fixture f = synth("kuhn", 300);
+    static const double distance[] = {0, 0.2, 0.49, 0.51, 0.99, 1.01, 30, 1e4, 1e6};
+    double diagonal = 2 / f.pack.scale;
+    for (size_t i = 0; i < sizeof distance / sizeof *distance; i++)
+        for (int parallel = 0; parallel < 2; parallel++) {
+            const double to[3] = {0.36, 0.48, 0.8};
+            tc_camera camera = {.focal_point = {0.5, 0.5, 0.5},
+                                .view_up = {0, 1, 0},
+                                .parallel = parallel,
+                                .parallel_scale = 1,
+                                .view_angle = distance[i] < 1 ? 60 : 40 / distance[i]};
+            tc_vec_mul_add(camera.position, camera.focal_point, distance[i] * diagonal, to);
+            if (distance[i] == 0)
+                tc_vec_mul_add(camera.focal_point, camera.position, -1, to);
+            tc_rays rays;
+            tc_frame frame;
+            assert_int_equal(tc_rays_from_camera(&rays, &camera, 300, 200, NULL), TC_OK);
+            tc_frame_build(&frame, &rays, f.pack.center, f.pack.scale);
+            if (!parallel && fabs(distance[i] - 0.5) > 0.02)
+                assert_true(frame.eye_inside == (distance[i] < 0.5));
+            assert_false(frame.behind);
+            double tolerance = 1e-12 + 4e-15 * distance[i]; /* what an eye so far away keeps of its digits */
+            for (int k = 0; k < 20; k++) {
+                double X = (k * 97) % 300 + 0.5, Y = (k * 61) % 200 + 0.5, origin[3], direction[3], o[3], d[3], off[3];
+                tc_rays_pixel(origin, direction, &rays, X, Y);
+                for (int a = 0; a < 3; a++) {
+                    o[a] = frame.point[a] + X * frame.point_dx[a] + Y * frame.point_dy[a];
+                    d[a] = frame.direction[a] + X * frame.direction_dx[a] + Y * frame.direction_dy[a];
+                }
+                tc_vec_normalize(d);
+                assert_true(off_line(o, origin, direction, &f.pack) <= tolerance);
+                assert_true(tc_vec_length(o) < 4); /* coordinates stay small however far the eye is */
+                tc_vec_cross(off, d, direction);
+                assert_true(tc_vec_length(off) < 1e-12);
+                assert_true(tc_vec_dot(d, direction) > 0);
+                tc_vec_cross(off, d, frame.up);
+                assert_true(tc_vec_length(off) > 0.1);
+            }
+        }
+    finish(&f);
+}
+
+static void clip_space_is_beside_the_rays(void **state)
+{
+    (void)state;
+    fixture f = synth("kuhn", 300);
+    for (int parallel = 0; parallel < 2; parallel++) {
+        const tc_camera camera = {.position = {3, 2, 5},
+                                  .focal_point = {0.5, 0.5, 0.5},
+                                  .view_up = {0, 1, 0},
+                                  .parallel = parallel,
+                                  .parallel_scale = 1,
+                                  .view_angle = 30};
+        tc_rays rays;
+        tc_frame frame;
+        assert_int_equal(tc_rays_from_camera(&rays, &camera, 300, 200, NULL), TC_OK);
+        tc_frame_build(&frame, &rays, f.pack.center, f.pack.scale);
+        for (int k = 0; k < 20; k++) {
+            double X = (k * 97) % 300 + 0.5, Y = (k * 61) % 200 + 0.5, origin[3], direction[3], m[3], clip[4];
+            tc_rays_pixel(origin, direction, &rays, X, Y);
+            for (int a = 0; a < 3; a++) /* a point on the ray, mesh space */
+                m[a] = (origin[a] + (4 + 0.1 * k) * direction[a] - f.pack.center[a]) * f.pack.scale;
+            for (int row = 0; row < 4; row++)
+                clip[row] = (double)frame.clip[row] * m[0] + (double)frame.clip[4 + row] * m[1] +
+                            (double)frame.clip[8 + row] * m[2] + (double)frame.clip[12 + row];
+            assert_true(clip[3] > 0);
+            assert_true(fabs((clip[0] / clip[3] + 1) * 150 - X) < 0.01);
+            assert_true(fabs((clip[1] / clip[3] + 1) * 100 - Y) < 0.01);
+        }
+    }
+    finish(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pixels_that_see_a_face_are_not_proposed),
+        cmocka_unit_test(needles_are_not_proposed),
+        cmocka_unit_test(faces_that_look_away_are_proposed),
+        cmocka_unit_test(rays_of_the_frame_are_beside_the_cameras),
+        cmocka_unit_test(clip_space_is_beside_the_rays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
