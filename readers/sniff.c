@@ -1,4 +1,5 @@
 /* sniff.c: what format a file is in, by its content first, then by its name. */
+#define _GNU_SOURCE
 #include "sniff.h"
 
 #include "core/memory.h"
@@ -149,6 +150,72 @@ static bool all_text(const unsigned char *head, size_t n)
     return n > 0;
 }
 
+/* Is there a file or folder of this name in folder? */
+static bool holds(const char *folder, const char *name)
+{
+    struct stat st;
+    char path[4096];
+    const int n = snprintf(path, sizeof path, "%s/%s", folder, name);
+    return n > 0 && (size_t)n < sizeof path && stat(path, &st) == 0;
+}
+
+/* The folder that holds path. */
+static void folder_of(char *out, size_t capacity, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    if (slash)
+        snprintf(out, capacity, "%.*s", (int)(slash == path ? 1 : slash - path), path);
+    else
+        snprintf(out, capacity, ".");
+}
+
+/* The folder of the OpenFOAM case that path lies in; false when none of the folders above it is one. */
+static bool foam_case_above(char *out, size_t capacity, const char *path)
+{
+    char *real = realpath(path, NULL); /* the way up may lead out of what was typed: 0/U */
+    char folder[4096] = "", above[4096];
+    bool is_case = false;
+    snprintf(folder, sizeof folder, "%s", real ? real : path);
+    free(real);
+    while (!is_case && strchr(folder, '/') && strcmp(folder, "/") != 0) {
+        folder_of(above, sizeof above, folder);
+        memcpy(folder, above, sizeof folder);
+        is_case = holds(folder, "constant/polyMesh");
+    }
+    if (is_case)
+        snprintf(out, capacity, "%s", folder);
+    return is_case;
+}
+
+static tc_status refuse_foam_part(const char *path, tc_error *err)
+{
+    char folder[4096];
+    if (foam_case_above(folder, sizeof folder, path))
+        return tc_fail(err, TC_E_FILE, "%s is one part of an OpenFOAM case; give the folder of the case: %s", path,
+                       folder);
+    return tc_fail(err, TC_E_FILE,
+                   "%s is one part of an OpenFOAM case; give the folder of the case, with constant/polyMesh in it",
+                   path);
+}
+
+/* The .case file beside path that has its name, else false. */
+static bool case_beside(char *out, size_t capacity, const char *path)
+{
+    struct stat st;
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    const int stem = (int)(dot ? dot - path : (ptrdiff_t)strlen(path));
+    const int n = snprintf(out, capacity, "%.*s.case", stem, path);
+    return n > 0 && (size_t)n < capacity && strcmp(out, path) != 0 && stat(out, &st) == 0;
+}
+
+static tc_status refuse_ensight_part(const char *path, const char *what, tc_error *err)
+{
+    char beside[4096];
+    if (case_beside(beside, sizeof beside, path))
+        return tc_fail(err, TC_E_FILE, "%s is %s of an EnSight case; give the case file: %s", path, what, beside);
+    return tc_fail(err, TC_E_FILE, "%s is %s of an EnSight case; give the .case file that names it", path, what);
+}
+
 tc_status tc_sniff_head(tc_sniffed *out, const char *path, const unsigned char *head, size_t n, tc_error *err)
 {
     memset(out, 0, sizeof *out);
@@ -189,18 +256,11 @@ tc_status tc_sniff_head(tc_sniffed *out, const char *path, const unsigned char *
     if (strstr(text, "FoamFile")) {
         if (tc_sniff_ends(path, "controlDict"))
             return found(out, TC_FORMAT_OPENFOAM, "");
-        return tc_fail(err, TC_E_FILE, "%s is one file of an OpenFOAM case; give the folder of the case", path);
+        return refuse_foam_part(path, err);
     }
+    if (strstr(text, "node id ") && strstr(text, "element id "))
+        return refuse_ensight_part(path, "the geometry", err);
     return tc_sniff_foreign(path, head, n, false, err);
-}
-
-/* Is there a file or folder of this name in folder? */
-static bool holds(const char *folder, const char *name)
-{
-    struct stat st;
-    char path[4096];
-    const int n = snprintf(path, sizeof path, "%s/%s", folder, name);
-    return n > 0 && (size_t)n < sizeof path && stat(path, &st) == 0;
 }
 
 static tc_status sniff_case_folder(tc_sniffed *out, const char *path, const char *folder, tc_error *err)
@@ -216,18 +276,14 @@ static tc_status sniff_case_folder(tc_sniffed *out, const char *path, const char
     if (holds(folder, "system/controlDict"))
         return tc_fail(err, TC_E_FILE,
                        "%s is an OpenFOAM case without a mesh (constant/polyMesh); make it first: blockMesh", path);
+    char above[4096];
+    if (foam_case_above(above, sizeof above, path))
+        return refuse_foam_part(path, err);
+    if (strcmp(path, folder) == 0)
+        return tc_fail(err, TC_E_FILE,
+                       "%s is a folder, but not of an OpenFOAM case (it has no constant/polyMesh); give a file", path);
     return tc_fail(err, TC_E_FILE, "%s is not in an OpenFOAM case: there is no constant/polyMesh in %s; give a file",
                    path, folder);
-}
-
-/* The folder that holds path. */
-static void folder_of(char *out, size_t capacity, const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    if (slash)
-        snprintf(out, capacity, "%.*s", (int)(slash == path ? 1 : slash - path), path);
-    else
-        snprintf(out, capacity, ".");
 }
 
 static tc_status sniff_name(tc_sniffed *out, const char *path, const unsigned char *head, size_t n, tc_error *err)
@@ -261,6 +317,9 @@ static tc_status sniff_name(tc_sniffed *out, const char *path, const unsigned ch
     tc_status status = tc_sniff_foreign(path, head, n, true, err);
     if (status)
         return status;
+    char beside[4096];
+    if (!tc_sniff_ends(path, ".case") && case_beside(beside, sizeof beside, path))
+        return refuse_ensight_part(path, "probably a part", err);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (tc_sniff_ends(path, names[i].extension))
             return tc_fail(err, TC_E_FILE, "%s is named like %s, but its content is not; it is damaged or misnamed",

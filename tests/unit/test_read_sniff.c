@@ -81,12 +81,52 @@ static void test_foreign_formats_name_no_way_out(void **state)
     check_refusal("a.unheard", "lorem ipsum", "known here");
     check_refusal("a.foam", "", "constant/polyMesh");
     check_refusal("U", "FoamFile\n{\n    version 2.0;\n", "folder of the case");
+    check_refusal("a.geo", "EnSight Gold\na\nnode id assign\nelement id assign\npart\n", "give the .case file");
+    check_refusal("a.geo", "Point(1) = {0, 0, 0, 1};\n", "gmsh -3");
     tc_sniffed s;
     tc_error err;
     assert_int_equal(tc_sniff_file(&s, TC_BUILD_DIR, &err), TC_E_FILE);
     assert_non_null(strstr(err.text, "constant/polyMesh"));
     assert_int_equal(tc_sniff_file(&s, "/dev/null", &err), TC_E_FILE);
     assert_int_equal(tc_sniff_file(&s, "/nowhere/at/all", &err), TC_E_FILE);
+}
+
+static void test_parts_of_a_case_do_not_name_the_case(void **state)
+{
+    (void)state;
+    static const char *const made[] = {"", "/constant", "/constant/polyMesh", "/0"};
+    char folder[600], path[700];
+    tc_sniffed s;
+    tc_error err = {0};
+    snprintf(folder, sizeof folder, "%s", scratch("foam"));
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
+        snprintf(path, sizeof path, "%s%s", folder, made[i]);
+        assert_int_equal(mkdir(path, 0700), 0);
+    }
+    snprintf(path, sizeof path, "%s/0/U", folder);
+    write_text(path, "FoamFile\n{\n    version 2.0;\n");
+    char *real = realpath(folder, NULL), want[700];
+    assert_non_null(real);
+    snprintf(want, sizeof want, "give the folder of the case: %s", real);
+    free(real);
+    assert_int_equal(tc_sniff_file(&s, path, &err), TC_E_FILE);
+    assert_non_null(strstr(err.text, want));
+    unlink(path);
+    *strrchr(path, '/') = 0; /* a folder within */
+    assert_int_equal(tc_sniff_file(&s, path, &err), TC_E_FILE);
+    assert_non_null(strstr(err.text, want));
+    for (size_t i = sizeof made / sizeof *made; i-- > 0;) {
+        snprintf(path, sizeof path, "%s%s", folder, made[i]);
+        assert_int_equal(rmdir(path), 0);
+    }
+
+    const char *geometry = scratch("e.geo"), *beside = scratch("e.case");
+    write_text(geometry, "EnSight Gold\na\nnode id assign\nelement id assign\npart\n");
+    write_text(beside, "FORMAT\ntype: ensight gold\n");
+    assert_int_equal(tc_sniff_file(&s, geometry, &err), TC_E_FILE);
+    assert_non_null(strstr(err.text, beside));
+    unlink(geometry);
+    unlink(beside);
 }
 
 /* ------------------------------------------------------------------------------------------ PLOT3D */
@@ -190,6 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_content_is_told_by_name),
         cmocka_unit_test(test_foreign_formats_name_no_way_out),
+        cmocka_unit_test(test_parts_of_a_case_do_not_name_the_case),
         cmocka_unit_test(test_plot3d_layouts_are_confused),
         cmocka_unit_test(test_plot3d_partners_are_not_found),
     };
