@@ -16,7 +16,6 @@
 #include <cstring>
 #include <functional>
 #include <memory>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <sys/mman.h>
@@ -60,10 +59,28 @@ struct json_owner {
     ~json_owner() { json_decref(json); }
 };
 
+/* Takes out every /proc/self/fd/N, with the space, parenthesis and quotes around it. */
+void drop_own_path(std::string &text)
+{
+    static const std::string own = "/proc/self/fd/";
+    for (size_t at = text.find(own); at != std::string::npos; at = text.find(own, at)) {
+        size_t end = at + own.size();
+        while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])))
+            end++;
+        for (const char *mark = "\")"; *mark; mark++)
+            if (end < text.size() && text[end] == *mark)
+                end++;
+        for (const char *mark = "\"( "; *mark; mark++)
+            if (at > 0 && text[at - 1] == *mark)
+                at--;
+        text.erase(at, end - at);
+    }
+}
+
 /* One line of OpenImageIO's report, without the path by which it knows the file. */
 std::runtime_error failure(std::string text)
 {
-    text = std::regex_replace(text, std::regex(R"re( ?\(?"?/proc/self/fd/\d+"?\)?)re"), "");
+    drop_own_path(text);
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
         text.pop_back();
     for (char &c : text)
