@@ -125,6 +125,10 @@ typedef struct tc_mesh_report {
 
 TC_API void tc_mesh_get_report(tc_mesh_report *out, const tc_mesh *mesh);
 
+/* The length over which opacity acts when tc_render_options.unit_distance is 0: bounds diagonal / cbrt(cells), with
+ * the cells of the file before splitting (source_cells), as ParaView does; in the mesh's unit, always above 0. */
+TC_API double tc_default_unit_distance(const tc_mesh *mesh);
+
 /* ------------------------------------------------------------------------------------------------------ files */
 
 typedef struct tc_read_options {

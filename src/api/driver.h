@@ -28,8 +28,6 @@ typedef struct tc_driver {
 /* The drivers of this build, best first; `auto` takes the first that can be created. NULL name ends the table. */
 extern const tc_driver tc_drivers[];
 
-/* options with every default filled in; the default unit distance: bounds diagonal / cbrt(cells). */
-double tc_default_unit(const tc_mesh *mesh);
 /* Checks what every driver relies on and fills options and rays. Errors: TC_E_ARG. */
 tc_status tc_render_resolve(tc_render_options *resolved, double *unit, tc_rays *rays, const tc_mesh *mesh,
                             const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,

@@ -18,7 +18,7 @@ void tc_render_defaults(tc_render_options *options)
     options->opacity_stop = 0.999;
 }
 
-double tc_default_unit(const tc_mesh *mesh)
+double tc_default_unit_distance(const tc_mesh *mesh)
 {
     const double *b = mesh->report.bounds;
     double diagonal = hypot(hypot(b[1] - b[0], b[3] - b[2]), b[5] - b[4]);
@@ -51,7 +51,7 @@ tc_status tc_render_resolve(tc_render_options *resolved, double *unit, tc_rays *
             return tc_fail(err, TC_E_ARG, "a table %d entries wide cannot be made; use 2 to %d", options->table_size[k],
                            MAX_TABLE);
     *resolved = *options;
-    *unit = options->unit_distance > 0 ? options->unit_distance : tc_default_unit(mesh);
+    *unit = options->unit_distance > 0 ? options->unit_distance : tc_default_unit_distance(mesh);
     return tc_rays_from_camera(rays, camera, options->width, options->height, err);
 }
 

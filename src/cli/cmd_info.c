@@ -39,6 +39,7 @@ static int tc_info_run(tc_talk *talk, const tc_command *command, int argc, char 
     info.prepared = code < 0;
     info.source = tc_mesh_source(mesh);
     tc_mesh_get_report(&info.report, mesh);
+    info.unit_distance = tc_default_unit_distance(mesh);
     if (options.json) {
         json_t *json = tc_info_json(&info);
         int wrote = tc_json_write(json, "-", talk);

@@ -100,11 +100,13 @@ static void tc_mesh_print(const tc_info *info)
     if (info->source && info->source->field)
         printf("field       %s (%s)", info->source->field, tc_association_name(report->association));
     else
-        printf("field       %s", info->source ? "none" : "its own");
+        printf("field       %s", info->source ? "none" : "field");
     if (report->scalar_range[0] <= report->scalar_range[1])
         printf(" %g … %g\n", report->scalar_range[0], report->scalar_range[1]);
     else
         printf(", no finite value\n");
+    printf("unit        %g: the length over which opacity acts, unless --unit-distance says otherwise\n",
+           info->unit_distance);
     if (!info->prepared)
         return;
     printf("parts       %zu, with %zu boundary faces\n", report->n_component, report->n_boundary_face);
@@ -201,9 +203,11 @@ static json_t *tc_report_json(const tc_info *info)
     tc_json_count(json, "source_cells", report->source_cells);
     json_object_set_new(json, "bounds", tc_json_reals(report->bounds, 6));
     json_object_set_new(json, "range", tc_range_json(report->scalar_range[0], report->scalar_range[1]));
+    tc_json_text(json, "field", info->source ? info->source->field : "field");
     tc_json_text(json, "association", tc_association_name(report->association));
     tc_json_real(json, "longest_edge", report->longest_edge);
     tc_json_real(json, "volume", report->volume);
+    tc_json_real(json, "unit_distance", info->unit_distance);
     if (!info->prepared) {
         json_decref(defects);
         return json;

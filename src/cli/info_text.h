@@ -10,6 +10,7 @@ typedef struct tc_info {
     tc_mesh_report report;
     bool prepared;  /* tc_mesh_prepare went well: the report is whole */
     double ms_read; /* NAN: not read from a file */
+    double unit_distance;
 } tc_info;
 
 /* Bytes of cells and vertices on the GPU: 20 a tet, imaginary ones too, 16 a vertex. */

@@ -9,7 +9,12 @@
 const char *tc_run_field(const tc_render_run *run)
 {
     const tc_source *source = tc_mesh_source(run->mesh);
-    return source && source->field ? source->field : "";
+    return source ? (source->field ? source->field : "") : "field"; /* a synthetic dataset has the one */
+}
+
+double tc_run_unit_distance(const tc_render_run *run)
+{
+    return run->options->unit_distance > 0 ? run->options->unit_distance : tc_default_unit_distance(run->mesh);
 }
 
 /* One word of a shell's command line, quoted where it must be. */
@@ -73,7 +78,7 @@ static char *tc_transfer_text(const tc_render_run *run)
     tc_json_text(json, "name", tc_transfer_name(run->tf));
     tc_json_text(json, "opacity", run->options->opacity);
     json_object_set_new(json, "log", json_boolean(run->options->log));
-    tc_json_measured(json, "unit_distance", run->options->unit_distance > 0 ? run->options->unit_distance : -1);
+    tc_json_real(json, "unit_distance", tc_run_unit_distance(run));
     for (size_t i = 0; i < n; i++) {
         double row[5] = {knot[i].s, knot[i].r, knot[i].g, knot[i].b, knot[i].a};
         json_array_append_new(list, tc_json_reals(row, 5));

@@ -47,5 +47,7 @@ void tc_meta_finish(tc_meta *meta);
 
 /* The field's name as shown to people; never NULL. */
 const char *tc_run_field(const tc_render_run *run);
+/* The unit distance in force: as given, else the mesh's. */
+double tc_run_unit_distance(const tc_render_run *run);
 
 #endif

@@ -153,6 +153,7 @@ json_t *tc_render_stats_json(const tc_render_run *run)
     tc_json_text(out, "tetcast", tc_version());
     tc_json_text(out, "input", run->options->input);
     tc_json_text(out, "field", tc_run_field(run));
+    tc_json_real(out, "unit_distance", tc_run_unit_distance(run));
     tc_json_count(image, "width", (uint64_t)run->render.width);
     tc_json_count(image, "height", (uint64_t)run->render.height);
     tc_json_part(out, "image", image);

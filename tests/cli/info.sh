@@ -14,7 +14,7 @@ run 0 info --json sink.vtu
 cp out sink.json
 json sink.json has tetcast eq source.cell_types.0.dimension 3 ge source.cell_types.0.count 1000 has source.arrays.0.name \
     size source.arrays.0.range 2 size mesh.bounds 6 eq mesh.convex false ge mesh.imaginary_tets 1 ge mesh.gpu_bytes 1 \
-    ge mesh.boundary_faces 100 eq mesh.parts 1 has time_ms.read
+    ge mesh.boundary_faces 100 eq mesh.parts 1 ge mesh.unit_distance 0.01 has time_ms.read
 tets=$(sed -n 's/.*"tets": \([0-9]*\).*/\1/p' sink.json | head -1)
 json sink.json ge mesh.gpu_bytes $((20 * tets))
 run 0 info --json sink.vtu --reentry peel
@@ -27,6 +27,24 @@ echo "no mesh" >text.vtk
 run 1 info text.vtk
 stdout_empty
 says "text.vtk"
+
+# Two tets of the cell sizes 3, 4 and 12: the diagonal is 13, the unit distance 13 / cbrt(2).
+cat >two.vtk <<'VTK'
+# vtk DataFile Version 3.0
+two tets
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 5 double
+0 0 0  3 0 0  0 4 0  0 0 12  3 4 12
+CELLS 2 10
+4 0 1 2 3
+4 1 2 3 4
+CELL_TYPES 2
+10 10
+VTK
+run 0 info --json two.vtk
+cp out two.json
+json two.json ge mesh.unit_distance 10.31810 le mesh.unit_distance 10.31811
 
 # A file with oddities: a triangle, an inverted tet, a point of no cell.
 cat >odd.vtk <<'VTK'

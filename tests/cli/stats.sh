@@ -6,7 +6,7 @@ sink="synth:heatsink:4000 --size 48x48 -o a.png"
 run 0 render $sink --stats s.json --verify 200
 stdout_empty
 version=$(sed -n 's/^#define TC_VERSION_STRING "\(.*\)"/\1/p' "$TC_SOURCE/src/tetcast.h")
-json s.json eq tetcast "$version" has gl.context has gl.renderer has gl.version \
+json s.json eq tetcast "$version" eq field field ge unit_distance 0.001 has gl.context has gl.renderer has gl.version \
     ge mesh.points 100 ge mesh.tets 1000 ge mesh.imaginary_tets 1 eq mesh.dropped_cells 0 eq mesh.convex false \
     eq mesh.reentry convexify ge mesh.gpu_bytes 1 ge mesh.gpu_bytes_per_tet 20 le mesh.gpu_bytes_per_tet 36
 json s.json lacks time_ms.read has time_ms.check has time_ms.adjacency has time_ms.order has time_ms.convexify \
