@@ -28,8 +28,9 @@ typedef struct tc_job {
     double texel[3][2];                          /* table: coordinate → texture coordinate, by axis */
     double grid[2];                              /* running integrals: intervals between nodes, length of one */
     double near, thick; /* running integrals: smallest difference, thickest piece; thick 0: never split */
-    bool rough;         /* running integrals: steps, or split segments */
+    bool rough;         /* running integrals: the function has steps or spikes */
     bool nonfinite;     /* some scalars are NaN: their cells contribute nothing */
+    double most[4];     /* running integrals: largest r, g, b of the function */
     double mean[4];     /* running integrals: mean slope */
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */

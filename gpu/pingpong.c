@@ -42,6 +42,9 @@ static void bind_transfer(const tc_job *job, GLuint program)
         tc_pass_fetch(gl, program, "tf_nodes", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
         tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
         tc_pass_float(gl, program, "tf_near", job->near);
+        if (job->rough || job->thick > 0)
+            gl->Uniform3f(gl->GetUniformLocation(program, "tf_most"), (float)job->most[0], (float)job->most[1],
+                          (float)job->most[2]);
         if (job->thick > 0)
             tc_pass_float(gl, program, "tf_thick", job->thick);
         tc_pass_vec4(gl, program, "tf_mean", job->mean);

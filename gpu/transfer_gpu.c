@@ -9,10 +9,13 @@
 
 enum { INTERVALS_LEAST = 8192, INTERVALS_MOST = 65536 }; /* powers of two: places of nodes are exact in float */
 static const double INTERVALS_A_RISE = 64;               /* over which the function may go from none to all */
-static const double THICK = 0.25;                        /* optical depth above which a segment is split … */
+static const double THICK = 0.12;                        /* optical depth above which a segment is split … */
+static const double THICK_ROUGH = 0.08;                  /* the same where the function has steps or spikes */
 static const double UNSPLIT_ERROR = 1e-3;                /* … in pictures where leaving it whole might err by more, */
-static const double UNSPLIT_SHARE = 0.005;               /* as needs_split reckons */
-static const double NEAR_LEAST = 1.0 / 16384;            /* smallest difference of x that cumulatives resolve */
+static const double UNSPLIT_SHARE_WILD = 0.04;
+static const double UNSPLIT_SHARE = 0.005;    /* as needs_split reckons */
+static const double NEAR_LEAST = 1.0 / 16384; /* smallest difference of x that cumulatives resolve */
+static const double NEAR_ROUGH = 1.0 / 65536; /* the same for steps and spikes, whose cumulatives are small */
 
 static tc_integrator choose(const tc_render_options *options, tc_render_stats *stats)
 {
@@ -77,8 +80,8 @@ static bool needs_split(const tc_transfer_gpu_request *request)
         a = fmax(ends[0][3], ends[1][3]);
         for (size_t i = 0; i + 1 < tf->n; i++) {
             const tc_knot *p = &tf->knot[i], *q = p + 1;
-            if (q->s < lo || p->s > hi)
-                continue;
+            if (q->s < lo || p->s > hi || q->s <= request->scalar[0] || p->s >= request->scalar[1])
+                continue; /* elsewhere, or beyond the data */
             double change = fmax(fabs(q->r - p->r), fmax(fabs(q->g - p->g), fabs(q->b - p->b)));
             slope = fmax(slope, change > 0 ? change / (q->s - p->s) : 0); /* infinite at a step */
             if (p->s >= lo)
@@ -86,8 +89,11 @@ static bool needs_split(const tc_transfer_gpu_request *request)
             if (q->s <= hi)
                 a = fmax(a, q->a);
         }
-        double colored_edge = fmin(edge, slope > 0 ? slope * edge_range : 0); /* colour changes by one at the most */
-        if (UNSPLIT_SHARE * a * colored_edge * fmin(1, a * edge) > UNSPLIT_ERROR)
+        /* Where the colour comes and goes within a cell, its change says little: the share is that of a step. */
+        bool wild = slope * edge_range > edge;
+        double colored_edge = wild ? edge : slope > 0 ? slope * edge_range : 0;
+        double share = wild ? UNSPLIT_SHARE_WILD : UNSPLIT_SHARE;
+        if (share * a * colored_edge * fmin(1, a * edge) > UNSPLIT_ERROR)
             return true;
     }
     return false;
@@ -112,7 +118,7 @@ static void bind(tc_job *job, const tc_transfer_gpu *t)
         job->texel[2][0] /= t->length_max;
     job->grid[0] = t->size[0] - 1;
     job->grid[1] = 1 / job->grid[0];
-    job->near = fmax(job->grid[1], NEAR_LEAST);
+    job->near = fmax(job->grid[1], t->size[0] > INTERVALS_MOST ? NEAR_ROUGH : NEAR_LEAST);
 }
 
 static tc_status build_table(tc_transfer_gpu *t, const tc_transfer_gpu_request *request, const tc_gl *gl,
@@ -186,8 +192,15 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         stats->ms_upload = (stats->ms_upload > 0 ? stats->ms_upload : 0) + upload;
     }
     bind(job, t);
-    job->thick = t->integrator == TC_INTEGRATOR_INTEGRAL && needs_split(request) ? THICK : 0;
-    job->rough = job->thick > 0 || t->size[0] > INTERVALS_MOST / 2;
+    job->rough = t->integrator == TC_INTEGRATOR_INTEGRAL && t->size[0] > INTERVALS_MOST;
+    bool split = t->integrator == TC_INTEGRATOR_INTEGRAL && needs_split(request);
+    job->thick = !split ? 0 : job->rough ? THICK_ROUGH : THICK;
+    for (size_t i = 0; i < request->transfer->n; i++) {
+        const tc_knot *k = &request->transfer->knot[i];
+        const double color[3] = {k->r, k->g, k->b};
+        for (int c = 0; c < 3; c++)
+            job->most[c] = i == 0 ? color[c] : fmax(job->most[c], color[c]);
+    }
     return status;
 }
 

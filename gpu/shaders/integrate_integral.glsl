@@ -15,9 +15,12 @@ uniform vec2 tf_grid;           // intervals between nodes, a power of two, and 
 // Below this difference of x the mean is the average of the ends: the difference of two cumulatives would have lost its
 // digits.
 uniform float tf_near;
+#if defined(TF_ROUGH) || defined(TF_SPLIT)
+uniform vec3 tf_most; // largest colour of the function: no more light comes than opacity and colours allow
+#endif
 #ifdef TF_SPLIT // some segments may be optically thick
 uniform float tf_thick; // a piece thicker than this is split
-const int SPLIT_MOST = 96;
+const int SPLIT_MOST = 400;
 #endif
 
 struct TfSample {
@@ -85,11 +88,21 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float t)
     i.depth += t;
     float transmittance = exp(-i.depth);
     float inverse = mean.a > 0.0 ? 1.0 / mean.a : 0.0;
+    float k = i.transmittance * t * t / (12.0 + t * (6.0 + 2.0 * t));
+#ifdef TF_ROUGH
+    // Steps and spikes: the ends may be far thicker than the mean, so their colours are compared, not their emissions.
+    vec3 color = mean.rgb * inverse;
+    vec4 back_point = tf_mean + back.point, front_point = tf_mean + i.front.point;
+    vec3 drift = (back_point.rgb - color * back_point.a) / max(max(back_point.a, mean.a), 1.0e-30) -
+                 (front_point.rgb - color * front_point.a) / max(max(front_point.a, mean.a), 1.0e-30);
+    vec3 c = color * (i.transmittance - transmittance) - k * drift;
+#else
     float e = (i.transmittance - transmittance) * inverse;
-    float k = i.transmittance * inverse * t * t / (12.0 + t * (6.0 + 2.0 * t));
+    k *= inverse;
     vec3 c = mean.rgb * (e + k * inverse * (back.point.a - i.front.point.a)) - k * (back.point.rgb - i.front.point.rgb);
-#ifdef TF_ROUGH // no more light than opacity, where steps may mislead the drift
-    c = clamp(c, 0.0, i.transmittance - transmittance);
+#endif
+#if defined(TF_ROUGH) || defined(TF_SPLIT)
+    c = clamp(c, vec3(0.0), (i.transmittance - transmittance) * tf_most);
 #endif
     i.rgb += c;
     i.transmittance = transmittance;
@@ -113,8 +126,9 @@ void integral_add(inout Integral i, float s, float l)
             shortened++;
         } else {
             integral_piece(i, back, mean, t);
+            float piece = to - from;
             from = to;
-            to = 1.0;
+            to = min(from + 2.0 * piece, 1.0); // the next one is likely to be much like it
             shortened = 0;
             if (from >= 1.0 || i.transmittance < 1.0e-6)
                 break;
