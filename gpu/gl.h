@@ -20,6 +20,7 @@
     X(PFNGLBINDTEXTUREPROC, BindTexture)                                                                               \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                                       \
     X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                                                   \
+    X(PFNGLBLENDEQUATIONSEPARATEPROC, BlendEquationSeparate)                                                           \
     X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                                           \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                                                 \
     X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                                           \
@@ -62,7 +63,10 @@
     X(PFNGLGENTEXTURESPROC, GenTextures)                                                                               \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                                       \
     X(PFNGLGETBOOLEANVPROC, GetBooleanv)                                                                               \
+    X(PFNGLGETBOOLEANI_VPROC, GetBooleani_v)                                                                           \
     X(PFNGLGETERRORPROC, GetError)                                                                                     \
+    X(PFNGLGETFLOATVPROC, GetFloatv)                                                                                   \
+    X(PFNGLGETINTEGERI_VPROC, GetIntegeri_v)                                                                           \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                               \
     X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                                   \
     X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                             \
@@ -76,6 +80,7 @@
     X(PFNGLISENABLEDPROC, IsEnabled)                                                                                   \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                               \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                               \
+    X(PFNGLPOLYGONMODEPROC, PolygonMode)                                                                               \
     X(PFNGLREADBUFFERPROC, ReadBuffer)                                                                                 \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                                                 \
     X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                                                               \

@@ -1,6 +1,18 @@
 /* saved.c: the GL state of a host that the renderer touches, kept and put back. */
 #include "gpu/saved.h"
 
+/* All off while the renderer works. */
+static const GLenum switches[] = {GL_DEPTH_TEST,         GL_BLEND,
+                                  GL_SCISSOR_TEST,       GL_CULL_FACE,
+                                  GL_STENCIL_TEST,       GL_COLOR_LOGIC_OP,
+                                  GL_RASTERIZER_DISCARD, GL_DEPTH_CLAMP,
+                                  GL_PRIMITIVE_RESTART,  GL_POLYGON_OFFSET_FILL,
+                                  GL_CLIP_DISTANCE0,     GL_CLIP_DISTANCE1,
+                                  GL_CLIP_DISTANCE2,     GL_CLIP_DISTANCE3,
+                                  GL_CLIP_DISTANCE4,     GL_CLIP_DISTANCE5,
+                                  GL_FRAMEBUFFER_SRGB,   GL_SAMPLE_MASK};
+_Static_assert(sizeof switches / sizeof *switches == TC_SAVED_SWITCHES, "saved.h counts the switches");
+
 void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
 {
     gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &s->draw_framebuffer);
@@ -17,15 +29,31 @@ void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
     gl->GetIntegerv(GL_BLEND_DST_RGB, &s->blend_dst_rgb);
     gl->GetIntegerv(GL_BLEND_SRC_ALPHA, &s->blend_src_alpha);
     gl->GetIntegerv(GL_BLEND_DST_ALPHA, &s->blend_dst_alpha);
-    gl->GetIntegerv(GL_BLEND_EQUATION_RGB, &s->blend_equation);
+    gl->GetIntegerv(GL_BLEND_EQUATION_RGB, &s->blend_equation_rgb);
+    gl->GetIntegerv(GL_BLEND_EQUATION_ALPHA, &s->blend_equation_alpha);
+    gl->GetIntegerv(GL_ARRAY_BUFFER_BINDING, &s->array_buffer);
+    gl->GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &s->pack_buffer);
+    gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &s->unpack_buffer);
+    gl->GetIntegerv(GL_POLYGON_MODE, s->polygon_mode);
+    gl->GetFloatv(GL_DEPTH_RANGE, s->depth_range);
+    gl->GetIntegerv(GL_PACK_ROW_LENGTH, &s->pack_row_length);
+    gl->GetIntegerv(GL_PACK_SKIP_ROWS, &s->pack_skip_rows);
+    gl->GetIntegerv(GL_PACK_SKIP_PIXELS, &s->pack_skip_pixels);
     gl->GetIntegerv(GL_PACK_ALIGNMENT, &s->pack_alignment);
     gl->GetBooleanv(GL_DEPTH_WRITEMASK, &s->depth_mask);
     gl->GetBooleanv(GL_COLOR_WRITEMASK, s->color_mask);
-    s->depth_test = gl->IsEnabled(GL_DEPTH_TEST);
-    s->blend = gl->IsEnabled(GL_BLEND);
-    s->scissor = gl->IsEnabled(GL_SCISSOR_TEST);
-    s->cull = gl->IsEnabled(GL_CULL_FACE);
-    s->stencil = gl->IsEnabled(GL_STENCIL_TEST);
+    for (int i = 0; i < TC_SAVED_SWITCHES; i++) {
+        s->enabled[i] = gl->IsEnabled(switches[i]);
+        gl->Disable(switches[i]);
+    }
+    for (GLuint i = 0; i < TC_SAVED_IMAGES; i++) {
+        gl->GetIntegeri_v(GL_IMAGE_BINDING_NAME, i, &s->image[i]);
+        gl->GetIntegeri_v(GL_IMAGE_BINDING_LEVEL, i, &s->image_level[i]);
+        gl->GetBooleani_v(GL_IMAGE_BINDING_LAYERED, i, &s->image_layered[i]);
+        gl->GetIntegeri_v(GL_IMAGE_BINDING_LAYER, i, &s->image_layer[i]);
+        gl->GetIntegeri_v(GL_IMAGE_BINDING_ACCESS, i, &s->image_access[i]);
+        gl->GetIntegeri_v(GL_IMAGE_BINDING_FORMAT, i, &s->image_format[i]);
+    }
     for (GLuint i = 0; i < TC_SAVED_UNITS; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + i);
         gl->GetIntegerv(GL_TEXTURE_BINDING_1D, &s->unit_1d[i]);
@@ -35,7 +63,12 @@ void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
         gl->GetIntegerv(GL_SAMPLER_BINDING, &s->unit_sampler[i]);
         gl->BindSampler(i, 0);
     }
-    gl->Disable(GL_STENCIL_TEST);
+    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    gl->PixelStorei(GL_PACK_ROW_LENGTH, 0);
+    gl->PixelStorei(GL_PACK_SKIP_ROWS, 0);
+    gl->PixelStorei(GL_PACK_SKIP_PIXELS, 0);
+    gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
 static void set_enabled(const tc_gl *gl, GLenum what, GLboolean on)
@@ -70,11 +103,19 @@ void tc_gl_restore(const tc_gl_saved *s, const tc_gl *gl)
     gl->ColorMask(s->color_mask[0], s->color_mask[1], s->color_mask[2], s->color_mask[3]);
     gl->BlendFuncSeparate((GLenum)s->blend_src_rgb, (GLenum)s->blend_dst_rgb, (GLenum)s->blend_src_alpha,
                           (GLenum)s->blend_dst_alpha);
-    gl->BlendEquation((GLenum)s->blend_equation);
+    gl->BlendEquationSeparate((GLenum)s->blend_equation_rgb, (GLenum)s->blend_equation_alpha);
     gl->PixelStorei(GL_PACK_ALIGNMENT, s->pack_alignment);
-    set_enabled(gl, GL_DEPTH_TEST, s->depth_test);
-    set_enabled(gl, GL_BLEND, s->blend);
-    set_enabled(gl, GL_SCISSOR_TEST, s->scissor);
-    set_enabled(gl, GL_CULL_FACE, s->cull);
-    set_enabled(gl, GL_STENCIL_TEST, s->stencil);
+    gl->PixelStorei(GL_PACK_ROW_LENGTH, s->pack_row_length);
+    gl->PixelStorei(GL_PACK_SKIP_ROWS, s->pack_skip_rows);
+    gl->PixelStorei(GL_PACK_SKIP_PIXELS, s->pack_skip_pixels);
+    gl->BindBuffer(GL_ARRAY_BUFFER, (GLuint)s->array_buffer);
+    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)s->pack_buffer);
+    gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);
+    gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);
+    gl->DepthRange((GLdouble)s->depth_range[0], (GLdouble)s->depth_range[1]);
+    for (GLuint i = 0; i < TC_SAVED_IMAGES; i++)
+        gl->BindImageTexture(i, (GLuint)s->image[i], s->image_level[i], s->image_layered[i], s->image_layer[i],
+                             (GLenum)s->image_access[i], (GLenum)s->image_format[i]);
+    for (int i = 0; i < TC_SAVED_SWITCHES; i++)
+        set_enabled(gl, switches[i], s->enabled[i]);
 }

@@ -4,19 +4,25 @@
 
 #include "gpu/gl.h"
 
-enum { TC_SAVED_UNITS = 9 };
+enum { TC_SAVED_UNITS = 9, TC_SAVED_IMAGES = 3, TC_SAVED_SWITCHES = 18 };
 
 typedef struct tc_gl_saved {
     GLint draw_framebuffer, read_framebuffer, program, vertex_array, active_texture, renderbuffer, texture_buffer;
     GLint viewport[4], scissor_box[4];
     GLint unit_2d[TC_SAVED_UNITS], unit_1d[TC_SAVED_UNITS], unit_3d[TC_SAVED_UNITS], unit_buffer[TC_SAVED_UNITS],
         unit_sampler[TC_SAVED_UNITS];
-    GLint depth_func, blend_src_rgb, blend_dst_rgb, blend_src_alpha, blend_dst_alpha, blend_equation, pack_alignment;
+    GLint array_buffer, pack_buffer, unpack_buffer;
+    GLint depth_func, blend_src_rgb, blend_dst_rgb, blend_src_alpha, blend_dst_alpha, blend_equation_rgb,
+        blend_equation_alpha, pack_alignment, pack_row_length, pack_skip_rows, pack_skip_pixels, polygon_mode[2];
+    GLfloat depth_range[2];
+    GLint image[TC_SAVED_IMAGES], image_level[TC_SAVED_IMAGES], image_layer[TC_SAVED_IMAGES],
+        image_access[TC_SAVED_IMAGES], image_format[TC_SAVED_IMAGES];
+    GLboolean image_layered[TC_SAVED_IMAGES];
     GLboolean depth_mask, color_mask[4];
-    GLboolean depth_test, blend, scissor, cull, stencil;
+    GLboolean enabled[TC_SAVED_SWITCHES]; /* of saved.c's list */
 } tc_gl_saved;
 
-/* Keeps the state and sets what the renderer expects (no samplers bound, no scissor, …). */
+/* Keeps the state and sets what the renderer expects (no samplers bound, every switch off, …). */
 void tc_gl_save(tc_gl_saved *saved, const tc_gl *gl);
 void tc_gl_restore(const tc_gl_saved *saved, const tc_gl *gl);
 
