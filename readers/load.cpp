@@ -114,6 +114,10 @@ int choose_step(const ReadRequest &request, const std::vector<double> &times, st
         best = (int)(std::min_element(times.begin(), times.end()) - times.begin());
         notes.push_back("time " + number(request.time) + " lies before the first step; the step at " +
                         number(times[(size_t)best]) + " was read");
+    } else if (request.time > times[(size_t)best] &&
+               times[(size_t)best] == *std::max_element(times.begin(), times.end())) {
+        notes.push_back("time " + number(request.time) + " lies after the last step; the step at " +
+                        number(times[(size_t)best]) + " was read");
     }
     return best;
 }
@@ -187,8 +191,12 @@ Loaded load_file(const ReadRequest &request, VtkTalk &talk)
     out.times = series.time;
     out.step = choose_step(request, series.time, out.notes);
     for (const std::string &file : series.files[(size_t)out.step]) {
-        const tc_sniffed inner = sniff(file);
-        load_one(out, file, inner, request, true, talk);
+        try {
+            const tc_sniffed inner = sniff(file);
+            load_one(out, file, inner, request, true, talk);
+        } catch (const Refusal &refusal) {
+            throw Refusal(request.path + " lists a file that is not read: " + refusal.what());
+        }
     }
     out.format = series.format;
     return out;

@@ -42,8 +42,9 @@ std::unique_ptr<Reader> make_plot3d_reader(const std::string &path)
     plot3d->SetScalarFunctionNumber(-1);
     plot3d->SetVectorFunctionNumber(-1);
     if (q.empty())
-        reader->notes.push_back(
-            "no solution file (named like the grid, with q for xyz) lies beside the PLOT3D grid; there are no arrays");
+        reader->notes.push_back("no whole solution file of the same grid (named like it, with q for xyz) lies beside "
+                                "the PLOT3D grid; there "
+                                "are no arrays");
     else
         plot3d->SetQFileName(q.c_str());
     reader->algorithm = plot3d;

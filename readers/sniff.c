@@ -304,7 +304,7 @@ static tc_status sniff_name(tc_sniffed *out, const char *path, const unsigned ch
         return sniff_case_folder(out, path, folder, err);
     }
     if (n == 0)
-        return tc_fail(err, TC_E_FILE, "%s is empty", path);
+        return tc_fail(err, TC_E_FILE, "%s is empty; write or fetch it again", path);
     tc_plot3d_layout layout;
     if (tc_plot3d_layout_of(&layout, path, NULL) == TC_OK && layout.kind != TC_PLOT3D_NONE)
         return found(out, TC_FORMAT_PLOT3D, "");

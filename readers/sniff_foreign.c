@@ -13,6 +13,7 @@ typedef struct foreign_format {
 } foreign_format;
 
 #define SURFACE "it holds a surface, not a volume, and has no 3-D cells to render"
+#define COLOUR_MAP "give it with --color-map, and a mesh as the input"
 #define UNPACK "unpack it first"
 #define EXPORT "export the result as .vtu, EnSight, CGNS or Exodus from the program that wrote it"
 
@@ -30,6 +31,8 @@ static const foreign_format foreign[] = {
      {NULL},
      UNPACK},
     {"a zstd archive", "\x28\xb5\x2f\xfd", NULL, {NULL}, UNPACK},
+    {"a ParaView colour map", NULL, "<ColorMap", {NULL}, COLOUR_MAP},
+    {"a ParaView colour map", NULL, "\"RGBPoints\"", {NULL}, COLOUR_MAP},
     {"an XDMF file", NULL, "<Xdmf", {".xdmf", ".xmf", ".xdmf2", ".xdmf3"}, NULL},
     {"a Gmsh mesh", "$MeshFormat", NULL, {NULL}, NULL},
     {"a Gmsh mesh", "$NOD", NULL, {NULL}, NULL},

@@ -11,6 +11,8 @@
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 
+#include <cstring>
+
 namespace tetcast
 {
 
@@ -53,7 +55,12 @@ class Window : public vtkOutputWindow
             talk->errors.push_back(bare(text));
     }
     void DisplayWarningText(const char *) override {}
-    void DisplayGenericWarningText(const char *) override {}
+    // The legacy reader goes on with whatever the memory held when an array ends early, and only warns.
+    void DisplayGenericWarningText(const char *text) override
+    {
+        if (text && strstr(text, "Error reading "))
+            DisplayErrorText(text);
+    }
     void DisplayDebugText(const char *) override {}
 };
 vtkStandardNewMacro(Window);
@@ -103,7 +110,7 @@ void VtkTalk::check(const std::string &path, const std::string &format)
         if (errors[i].compare(0, 10, "Algorithm ") != 0)
             first = errors[i];
     errors.clear();
-    if (first.find("may be too short") != std::string::npos)
+    if (first.find("may be too short") != std::string::npos || first.find("ascii data") != std::string::npos)
         first += " (or holds nan or inf as text, which VTK does not read)";
     throw Refusal(path + " could not be read as " + format + ": " + first +
                   "; the file is damaged or cut short, write or fetch it again");

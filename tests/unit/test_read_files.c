@@ -303,7 +303,11 @@ static void test_files_cut_short_are_taken_for_whole(void **state)
                                         "can_series/can_0.hdf",
                                         "sqnz_s.adf.cgns",
                                         "plot3d/combxyz.bin",
-                                        "patch_antenna.vtu"};
+                                        "patch_antenna.vtu",
+                                        "CylinderLinear.vtk",
+                                        "hexa.vtk",
+                                        "notch_stress_fixed.vtk",
+                                        "vox8_binary.vtk"};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
         for (int percent = 10; percent < 100; percent += 40) {
             char from[512];

@@ -79,6 +79,8 @@ static void test_foreign_formats_name_no_way_out(void **state)
     check_refusal("f.vtu", "<?xml version=\"1.0\"?>\n<VTKFile ty", "first tag");
     check_refusal("a.sos", "FORMAT\ntype: master_server gold\nSERVERS\n# ensight\n", ".case");
     check_refusal("a.unheard", "lorem ipsum", "known here");
+    check_refusal("a.json", "[{\"Name\": \"x\", \"RGBPoints\": [0, 1, 1, 1]}]", "--color-map");
+    check_refusal("a.xml", "<ColorMap name=\"x\"/>", "--color-map");
     check_refusal("a.foam", "", "constant/polyMesh");
     check_refusal("U", "FoamFile\n{\n    version 2.0;\n", "folder of the case");
     check_refusal("a.geo", "EnSight Gold\na\nnode id assign\nelement id assign\npart\n", "give the .case file");
