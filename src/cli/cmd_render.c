@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define TC_VISIBLE (0.5 / 255) /* opacity below which an 8-bit picture stays empty */
+
 /* What the frames of one run are made with. */
 typedef struct tc_frames {
     tc_renderer *renderer;
@@ -141,8 +143,16 @@ static int tc_picture_write(tc_render_run *run, tc_talk *talk, int argc, char **
 static void tc_empty_warn(const tc_render_run *run, tc_talk *talk)
 {
     char why[512];
-    if (tc_image_covered(run->image))
+    const double peak = (double)tc_image_peak(run->image);
+    if (peak >= TC_VISIBLE)
         return;
+    if (peak > 0) {
+        tc_talk_always(talk,
+                       "the picture is all but empty: no pixel is more opaque than %.3g, less than half an 8-bit step; "
+                       "raise --opacity or make --unit-distance smaller",
+                       peak);
+        return;
+    }
     tc_empty_reason(why, sizeof why, &run->report, tc_run_field(run), run->tf, &run->camera, &run->options->size);
     tc_talk_always(talk, "the picture is empty: %s", why);
 }
@@ -223,6 +233,9 @@ int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, ch
     frames.march = frames.first_hit + options.repeat;
     frames.readback = frames.march + options.repeat;
     code = tc_input_load(&run.mesh, &run.ms_read, &options.source, options.input, talk);
+    const tc_source *source = code < 0 ? tc_mesh_source(run.mesh) : NULL;
+    for (size_t i = 0; source && i < source->n_note; i++)
+        tc_talk_say(talk, "%s: %s", options.input, source->note[i]);
     if (code < 0)
         code = tc_input_prepare(run.mesh, &options.source, talk);
     if (code < 0) {

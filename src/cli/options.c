@@ -100,8 +100,8 @@ static int tc_refuse_value(tc_talk *talk, const tc_option *option, const char *t
     char bounds[96] = "";
     if (option->low != option->high && !*why) {
         if (option->high < 1e18)
-            snprintf(bounds, sizeof bounds, ", %s %g and at most %g", option->open ? "above" : "at least", option->low,
-                     option->high);
+            snprintf(bounds, sizeof bounds, ", %s %.10g and at most %.10g", option->open ? "above" : "at least",
+                     option->low, option->high);
         else
             snprintf(bounds, sizeof bounds, ", %s %g", option->open ? "above" : "at least", option->low);
     }
@@ -271,6 +271,10 @@ int tc_options_parse(void *values, const char **argument, int *n_argument, tc_ta
             int code = tc_option_read(values, &common, talk, command, &i, argc, argv);
             if (code >= 0)
                 return code;
+        } else if (!*argv[i]) {
+            tc_talk_error(talk, "%s takes %s, not an empty word", command->name,
+                          command->most ? command->arguments : "no arguments");
+            return TC_EXIT_USAGE;
         } else if (count == command->most) {
             tc_talk_error(talk, "%s takes %s%s, so '%s' is one too many", command->name,
                           command->most ? "only " : "no arguments", command->most ? command->arguments : "", argv[i]);

@@ -6,8 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 #define TC_SIZE_MAX 32768
+#define TC_PIXELS_MAX (1 << 28)
 #define AT(member) .at = offsetof(tc_render_command, member)
 #define HAS(member) .has = offsetof(tc_render_command, member) + 1
 
@@ -55,6 +57,10 @@ static bool tc_size_parse(void *field, const char *text, char *why)
         snprintf(why, 64, "each from 1 to %d", TC_SIZE_MAX);
         return false;
     }
+    if ((long long)width * height > TC_PIXELS_MAX) {
+        snprintf(why, 64, "at most %d pixels in all", TC_PIXELS_MAX);
+        return false;
+    }
     *(tc_size *)field = (tc_size){width, height};
     return true;
 }
@@ -88,8 +94,8 @@ static bool tc_table_size_parse(void *field, const char *text, char *why)
         sscanf(text, "%6d,%6d,%6d%c", &size[0], &size[1], &size[2], &rest) != 3)
         return false;
     for (int i = 0; i < 3; i++)
-        if (size[i] < 2 || size[i] > 2048) {
-            snprintf(why, 64, "each from 2 to 2048");
+        if (size[i] < 2 || size[i] > 1024) {
+            snprintf(why, 64, "each from 2 to 1024");
             return false;
         }
     memcpy(field, size, sizeof size);
@@ -182,6 +188,17 @@ static bool tc_equal3(const double *a, const double *b)
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
+/* Do both names lead to one file, there or to be written? */
+static bool tc_same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    if (!strcmp(a, "-") || !strcmp(b, "-"))
+        return false;
+    if (stat(a, &x) == 0 && stat(b, &y) == 0)
+        return S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+    return !strcmp(a, b);
+}
+
 static int tc_render_check(const tc_render_command *out, tc_talk *talk)
 {
     static const double zero[3];
@@ -206,6 +223,15 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
     }
     if (out->stats && !strcmp(out->stats, "-") && !strcmp(out->output, "-")) {
         tc_talk_error(talk, "-o - and --stats - both want stdout: give one of them a file");
+        return TC_EXIT_USAGE;
+    }
+    if (out->stats && tc_same_file(out->stats, out->output)) {
+        tc_talk_error(talk, "--stats and --output are one file, %s: give each its own", out->output);
+        return TC_EXIT_USAGE;
+    }
+    if (tc_same_file(out->input, out->output) || (out->stats && tc_same_file(out->input, out->stats))) {
+        tc_talk_error(talk, "%s is the input and would be written over: give --output and --stats other names",
+                      out->input);
         return TC_EXIT_USAGE;
     }
     code = tc_output_kind_check(out->output, talk);

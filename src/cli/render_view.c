@@ -40,13 +40,13 @@ int tc_render_camera(tc_camera *out, const tc_render_command *options, const dou
     return -1;
 }
 
-bool tc_image_covered(const tc_image *image)
+float tc_image_peak(const tc_image *image)
 {
     size_t n = (size_t)image->width * (size_t)image->height;
+    float peak = 0;
     for (size_t i = 0; i < n; i++)
-        if (image->rgba[4 * i + 3] > 0)
-            return true;
-    return false;
+        peak = image->rgba[4 * i + 3] > peak ? image->rgba[4 * i + 3] : peak;
+    return peak;
 }
 
 /* Greatest attenuation that the function gives to scalars from lo to hi. */
@@ -88,7 +88,7 @@ static void tc_cross(double *out, const double *a, const double *b)
 
 static void tc_unit(double *v)
 {
-    double length = sqrt(tc_dot(v, v));
+    double length = hypot(hypot(v[0], v[1]), v[2]);
     for (int i = 0; i < 3 && length > 0; i++)
         v[i] /= length;
 }

@@ -8,8 +8,8 @@
  * -1 to go on, else the exit code (the eye on the focal point). */
 int tc_render_camera(tc_camera *out, const tc_render_command *options, const double bounds[6], tc_talk *talk);
 
-/* Whether any pixel has opacity. */
-bool tc_image_covered(const tc_image *image);
+/* The greatest opacity of a pixel; 0: the picture is empty. */
+float tc_image_peak(const tc_image *image);
 
 /* Fills why with a sentence that says, as far as it can be told, why nothing is seen. */
 void tc_empty_reason(char *why, size_t capacity, const tc_mesh_report *report, const char *field, const tc_transfer *tf,

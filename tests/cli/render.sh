@@ -64,8 +64,34 @@ run 0 render $ball -o f.png --focal-point 100,0,0 --quiet
 says "outside the view"
 run 0 render $ball -o f.png --quiet --zoom 0.0001
 says "the picture is empty"
+run 0 render $ball -o f.png --quiet --unit-distance 1e9
+says "all but empty"
+one_line
 run 0 render $ball -o f.png
 says_not "empty"
+
+# A time outside the steps, and a list that names a file that is not there.
+run 0 synth ball --cells 300 -o step.vtu --quiet
+for name in step gone; do
+    cat >$name.pvd <<PVD
+<VTKFile type="Collection"><Collection>
+<DataSet timestep="1" file="$name.vtu"/><DataSet timestep="2" file="$name.vtu"/>
+</Collection></VTKFile>
+PVD
+done
+run 0 render step.pvd --size 8x8 -o t.png --time 5
+says "time 5 lies after the last step; the step at 2 was read"
+run 0 render step.pvd --size 8x8 -o t.png --time 0
+says "time 0 lies before the first step; the step at 1 was read"
+run 0 render step.pvd --size 8x8 -o t.png --time 1.5
+says_not "lies"
+run 1 render gone.pvd --size 8x8 -o gone.png
+says "gone.pvd lists"
+says "gone.vtu cannot be opened"
+one_line
+absent gone.png
+run 1 render step.pvd --size 8x8 -o gone.png --step 2
+says "no step 2"
 
 # A mesh whose gaps cannot be filled is peeled, and that is said: three tets on one face.
 cat >fan.vtk <<'VTK'

@@ -187,11 +187,11 @@ static void one_faint_pixel_is_not_empty(void **state)
     (void)state;
     float rgba[2 * 3 * 4] = {0};
     tc_image image = {2, 3, rgba};
-    assert_false(tc_image_covered(&image));
+    assert_false(tc_image_peak(&image) > 0);
     rgba[5] = 1; /* colour without opacity */
-    assert_false(tc_image_covered(&image));
+    assert_false(tc_image_peak(&image) > 0);
     rgba[23] = 1e-30f;
-    assert_true(tc_image_covered(&image));
+    assert_true(tc_image_peak(&image) == 1e-30f);
 }
 
 int main(void)

@@ -46,8 +46,12 @@ for case in \
     "the nearest is 'table'|render a --integrator tabel" \
     "the nearest is 'osmesa'|render a --gl mesa" \
     "the nearest is 'convexify'|render a --reentry convex" \
-    "each from 2 to 2048|render a --table-size 1,128,256" \
+    "each from 2 to 1024|render a --table-size 1,128,256" \
     "--table-size takes|render a --table-size 128,128" \
+    "from 2 to 1024|render a --table-size 2048,2,2" \
+    "268435456 pixels in all|render a --size 32768x32768" \
+    "are one file|render a -o a.png --stats a.png" \
+    "would be written over|render a --stats a" \
     "at most 1|render a --opacity-stop 1.5" \
     "--steps-per-pass takes K|render a --steps-per-pass 0" \
     "--repeat takes N|render a --repeat 0" \
