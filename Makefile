@@ -4,7 +4,7 @@
 #   make demo       render the heat sink to build/demo.png
 #   make test       build everything and run all tests
 #   make bench      measure, side by side with VTK
-#   make docs       manual pages as HTML in build/docs
+#   make docs       the figures in docs/images, and the manual pages as HTML in build/docs
 #   make install    to PREFIX (/usr/local), below DESTDIR
 #   make clean
 #
@@ -23,7 +23,7 @@ BUILD := build
 BASE_PACKAGES := gcc g++ libc6-dev cmake ninja-build pkg-config libvtk9-dev libtet1.5-dev libosmesa6-dev libegl-dev \
 	libgl-dev libegl1 libgl1-mesa-dri libopenimageio-dev libglm-dev libjansson-dev libcmocka-dev
 BENCH_PACKAGES := python3 python3-vtk9 python3-numpy xvfb xauth
-DOCS_PACKAGES := groff
+DOCS_PACKAGES := groff gnuplot-nox
 
 CONFIGURE = cmake -S . -B $(BUILD) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-G Ninja) \
 	-DCMAKE_BUILD_TYPE=$(BUILD_TYPE) -DTC_WERROR=$(WERROR) -DCMAKE_INSTALL_PREFIX=$(PREFIX) $(CMAKE_ARGS)
@@ -59,10 +59,13 @@ test: configure
 
 bench: all
 	@$(call packages,$(BENCH_PACKAGES))
+	cmake --build $(BUILD) -j $(JOBS) --target bench_table
+	$$(find $(BUILD)/tests/bench -name bench_table -type f)
 	/usr/bin/python3 tests/bench/bench.py $(BENCH_ARGS)
 
-docs:
+docs: all
 	@$(call packages,$(DOCS_PACKAGES))
+	sh docs/figures.sh $(BUILD)/tetcast
 	@mkdir -p $(BUILD)/docs
 	@for page in docs/man/*.1; do \
 		html=$(BUILD)/docs/$$(basename $$page .1).html; \
