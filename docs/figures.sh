@@ -35,7 +35,7 @@ set title "Heat sink, 512x512, one cell a pass (after Weiler et al. 2003, figure
 set xlabel "pass"
 set ylabel "fragments"
 set yrange [0:*]
-set key top right
+set key center right
 plot "$work/all" with lines lw 2 lc rgb "#c0392b" title "without early z", \\
      "$work/locked" with lines lw 2 lc rgb "#27ae60" title "early z", \\
      "$work/stopped" with lines lw 2 lc rgb "#2980b9" title "early z and early ray termination"

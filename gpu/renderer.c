@@ -15,7 +15,7 @@
 enum {
     AUTO_STEPS_SOFTWARE = 512, /* where a pass costs next to nothing: most rays end in the first */
     AUTO_STEPS_HARDWARE = 64,
-    AUTO_Z_PAPER = 14 /* Weiler et al. 2003, 5.2 */
+    AUTO_Z_SMALL = 4 /* for few steps a pass; Weiler et al. 2003, 5.2, found 14 best: 3 to 6 % more fragments here */
 };
 
 struct tc_gpu_renderer {
@@ -140,7 +140,7 @@ static void choose_passes(tc_job *job, const tc_render_options *options)
                                                       : AUTO_STEPS_HARDWARE;
     int every = options->z_update_every;
     if (every == 0)
-        every = job->steps_per_pass >= 8 ? 2 : AUTO_Z_PAPER;
+        every = job->steps_per_pass >= 8 ? 2 : AUTO_Z_SMALL;
     job->z_update_every = every < 0 ? -1 : (every + 1) / 2 * 2;
 }
 
