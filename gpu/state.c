@@ -24,7 +24,8 @@ static GLuint depth_buffer(const tc_state *s, const tc_gl *gl)
     return buffer;
 }
 
-static tc_status framebuffer(GLuint *out, const tc_gl *gl, const GLuint *color, int n, GLuint depth, tc_error *err)
+static tc_status framebuffer(GLuint *out, const tc_state *s, const tc_gl *gl, const GLuint *color, int n, GLuint depth,
+                             tc_error *err)
 {
     GLenum buffers[4];
     gl->GenFramebuffers(1, out);
@@ -38,8 +39,10 @@ static tc_status framebuffer(GLuint *out, const tc_gl *gl, const GLuint *color, 
     gl->DrawBuffers(n, buffers);
     GLenum complete = gl->CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (complete != GL_FRAMEBUFFER_COMPLETE)
-        return tc_fail(err, TC_E_GL, "%s cannot render to float textures (framebuffer status 0x%04X)", gl->renderer,
-                       complete);
+        return tc_fail(
+            err, TC_E_GL,
+            "%s cannot render to float textures of %dx%d pixels (framebuffer status 0x%04X); use a smaller --size",
+            gl->renderer, s->width, s->height, complete);
     return TC_OK;
 }
 
@@ -67,7 +70,7 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, int width, int height, b
         if (counting)
             set->steps = screen_texture(s, gl, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
         GLuint textures[4] = {set->walk, set->color, set->at, set->steps};
-        status = framebuffer(&set->framebuffer, gl, textures, counting ? 4 : 3, s->lock, err);
+        status = framebuffer(&set->framebuffer, s, gl, textures, counting ? 4 : 3, s->lock, err);
         s->bytes += pixels * (counting ? 44 : 40);
     }
     for (int i = 0; i < (peeling ? 2 : 1) && status == TC_OK; i++) {
@@ -76,14 +79,14 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, int width, int height, b
             s->bytes += pixels * 8;
         }
         GLuint textures[3] = {s->set[0].walk, s->set[0].at, s->key[i]};
-        status = framebuffer(&s->hit_framebuffer[i], gl, textures, peeling ? 3 : 2, s->hit_depth, err);
+        status = framebuffer(&s->hit_framebuffer[i], s, gl, textures, peeling ? 3 : 2, s->hit_depth, err);
     }
     if (status == TC_OK)
-        status = framebuffer(&s->lock_framebuffer, gl, NULL, 0, s->lock, err);
+        status = framebuffer(&s->lock_framebuffer, s, gl, NULL, 0, s->lock, err);
     if (status == TC_OK) {
         s->result = screen_texture(s, gl, GL_RGBA32F, GL_RGBA, GL_FLOAT);
         s->bytes += pixels * 16;
-        status = framebuffer(&s->result_framebuffer, gl, &s->result, 1, 0, err);
+        status = framebuffer(&s->result_framebuffer, s, gl, &s->result, 1, 0, err);
     }
     if (status == TC_OK)
         status = tc_gl_check(gl, "making the ray state", err);

@@ -1,4 +1,4 @@
-/* running.h: one-dimensional running integrals of extinction and emission (design.md "Segment integrals").
+/* running.h: one-dimensional running integrals of extinction and emission (docs/architecture.md, "Segment integrals").
  *
  * Over x = (s - span[0]) / (span[1] - span[0]) in [0, 1] and nodes x_i = i / (n-1):
  *   point[i]      = (tau r, tau g, tau b, tau) at x_i (at a step: the mean of both sides)

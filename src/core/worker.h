@@ -1,4 +1,4 @@
-/* worker.h: runs a helper program and talks to it (design.md "Languages and libraries").
+/* worker.h: runs a helper program and talks to it (docs/architecture.md, "Helper programs").
  *
  * A helper is a separate executable (tetcast-read, tetcast-convexify, tetcast-image). The two sides talk over a
  * SOCK_SEQPACKET-free byte stream (socketpair AF_UNIX, SOCK_STREAM) that is the helper's descriptor 3. Each message is

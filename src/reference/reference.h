@@ -48,7 +48,7 @@ void tc_reference_segment(double out[4], const tc_transfer *tf, double s0, doubl
 
 /* Compares n pixels of image (drawn without repetition from seed; n >= all: all) with the reference, channel by
  * channel, float against double. worst_x, worst_y: the image's column and row (row 0 at the top). rays_lost stays 0.
- * Ill-posed rays are counted and left out of max, p999 and mean (hard_cases.md, invariant 7): their reference colour
+ * Ill-posed rays are counted and left out of max, p999 and mean: their reference colour
  * moves by more than 1/1020 in a channel when the ray is shifted by 2^-22 of the diagonal to any of four sides, or all
  * scalars by 2^-22 of their range up or down. Only rays whose error exceeds 1/1020 are asked: others could not raise
  * the maximum above it. A channel that is not finite counts as an error of FLT_MAX and is never ill-posed. Errors:

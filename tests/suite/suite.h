@@ -1,4 +1,4 @@
-/* suite.h: the one suite that every driver passes on every context (design.md "Drivers"): what its programs share.
+/* suite.h: the one suite that every driver passes on every context (docs/architecture.md, "Drivers"): what its programs share.
  *
  * Each program takes a back end as its argument: a context ("osmesa", "egl") for the driver pingpong, or "reference".
  * Where a context is missing it says why and ends with SUITE_SKIPPED. Every picture that is rendered here must have
@@ -39,7 +39,7 @@ void suite_prepare(tc_mesh *mesh, tc_reentry reentry);
 double suite_diagonal(const tc_mesh *mesh); /* of the bounds */
 
 tc_transfer *suite_function(const tc_knot *knot, size_t n);
-/* interface.md's benchmark function over the mesh's range: Cool to Warm, opacity linear from 0 to 0.3. */
+/* The benchmark function over the mesh's range: Cool to Warm, opacity linear from 0 to 0.3. */
 tc_transfer *suite_benchmark(const tc_mesh *mesh);
 
 /* The whole mesh in view from direction (x, y, z), 30 degrees or parallel. */

@@ -1,4 +1,4 @@
-/* test_suite_cameras.c: eyes and images out of the ordinary (hard_cases.md "Cameras"), against the reference. */
+/* test_suite_cameras.c: eyes and images out of the ordinary, against the reference. */
 #include "suite.h"
 
 #include "core/vec.h"

@@ -1,5 +1,5 @@
 /* test_suite_constant.c: constant extinction, where alpha is known in closed form: 1 - exp(-kappa L), L the analytic
- * chord of the very polyhedron (hard_cases.md, invariants 2 and 3). */
+ * chord of the very polyhedron. */
 #include "suite.h"
 
 #include "datasets_synthetic/synth.h"

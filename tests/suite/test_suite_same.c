@@ -1,5 +1,5 @@
 /* test_suite_same.c: what must not change the picture: refining, reordering, filling gaps or peeling, a second frame
- * (hard_cases.md, invariants 4 and 7). */
+ * . */
 #include "suite.h"
 
 #include "datasets_synthetic/synth.h"
