@@ -1,5 +1,4 @@
-/* test_suite_same.c: what must not change the picture: refining, reordering, filling gaps or peeling, a second frame
- * . */
+/* test_suite_same.c: what must not change the picture: refining, reordering, filling gaps or peeling, a second frame. */
 #include "suite.h"
 
 #include "datasets_synthetic/synth.h"
