@@ -19,15 +19,26 @@ static void upload_proposals(const tc_job *job)
     gl->BindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
+static tc_status get_program(GLuint *program, const tc_job *job, tc_error *err)
+{
+    char defines[512];
+    tc_job_defines(defines, sizeof defines, job);
+    const tc_program_source source = {"first_hit.vert", "first_hit.frag", defines, NULL};
+    return tc_program_get(program, job->programs, &source, err);
+}
+
+tc_status tc_first_hit_compile(const tc_job *job, tc_error *err)
+{
+    GLuint unused;
+    return get_program(&unused, job, err);
+}
+
 tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
 {
     const tc_gl *gl = job->gl;
     const tc_state *s = job->state;
-    char defines[512];
-    tc_job_defines(defines, sizeof defines, job);
-    const tc_program_source source = {"first_hit.vert", "first_hit.frag", defines, NULL};
     GLuint program;
-    tc_status status = tc_program_get(&program, job->programs, &source, err);
+    tc_status status = get_program(&program, job, err);
     if (status != TC_OK)
         return status;
 

@@ -9,6 +9,7 @@
 #include <string.h>
 
 static const double EYE_NEAR = 2.0; /* half diagonals */
+static const double NO_EYE = 1e30;
 
 static void to_mesh_space(double *out, const double *p, const double *center, double scale)
 {
@@ -54,6 +55,7 @@ void tc_frame_build(tc_frame *out, const tc_rays *rays, const double center[3], 
             rays->direction[k] + 0.5 * rays->width * rays->direction_dx[k] + 0.5 * rays->height * rays->direction_dy[k];
     tc_vec_normalize(axis);
 
+    out->eye_t = NO_EYE;
     tc_vec_copy(out->direction, rays->direction);
     tc_vec_copy(out->direction_dx, rays->direction_dx);
     tc_vec_copy(out->direction_dy, rays->direction_dy);
@@ -78,10 +80,13 @@ void tc_frame_build(tc_frame *out, const tc_rays *rays, const double center[3], 
         if (distance < EYE_NEAR) {
             tc_vec_copy(out->point, eye);
             out->eye_inside = distance < 1.0 + 1e-6;
+            if (!out->eye_inside)
+                out->eye_t = 0;
         } else {
             /* dot(direction, axis) is the same for every pixel, so the point is affine in the pixel. */
             double t = ahead / tc_vec_dot(out->direction, axis);
             tc_vec_mul_add(out->point, eye, t, out->direction);
+            out->eye_t = t;
             for (int k = 0; k < 3; k++) {
                 out->point_dx[k] = t * out->direction_dx[k];
                 out->point_dy[k] = t * out->direction_dy[k];

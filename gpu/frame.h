@@ -10,9 +10,10 @@ typedef struct tc_frame {
     double point[3], point_dx[3], point_dy[3];             /* frame origin of pixel (X, Y), affine */
     double direction[3], direction_dx[3], direction_dy[3]; /* not normalised */
     double up[3];                                          /* not parallel to any ray */
-    float clip[16];                                        /* mesh space → clip space, column-major */
-    bool eye_inside;                                       /* the eye is in the mesh's sphere: rays start at depth 0 */
-    bool behind;                                           /* the whole mesh lies behind the eye: nothing is seen */
+    double eye_t;    /* origin = eye + eye_t * direction; huge where no eye bounds the ray (parallel, or eye_inside) */
+    float clip[16];  /* mesh space → clip space, column-major */
+    bool eye_inside; /* the eye is in the mesh's sphere: rays start at depth 0 */
+    bool behind;     /* the whole mesh lies behind the eye: nothing is seen */
 } tc_frame;
 
 /* center, scale: of the pack. */

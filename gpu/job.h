@@ -18,19 +18,18 @@ typedef struct tc_job {
     const tc_proposals *proposals; /* of this frame */
     GLuint hit_array, hit_buffer;  /* vertex array and buffer for them */
     GLuint screen_array;           /* an empty vertex array */
-    const tc_log *log;
 
     tc_integrator integrator;                    /* TABLE or INTEGRAL */
     bool has_imaginary, peel, cell_data, extend; /* extend: data reach beyond the transfer function's knots */
     double length_unit;                          /* half diagonals → unit distances */
-    double transmittance_stop;                   /* <= 0 … : 1 - opacity stop; negative: never */
+    double transmittance_stop;                   /* 1 - opacity stop; negative: never */
     double map[2];                               /* packed scalar → x = s*map[0] + map[1] */
     double texel[3][2];                          /* table: coordinate → texture coordinate, by axis */
     double grid[2];                              /* running integrals: intervals between nodes, length of one */
     double near, thick; /* running integrals: smallest difference, thickest piece; thick 0: never split */
     bool rough;         /* running integrals: the function has steps or spikes */
     bool nonfinite;     /* some scalars are NaN: their cells contribute nothing */
-    double most[4];     /* running integrals: largest r, g, b of the function */
+    double most[3];     /* running integrals: largest r, g, b of the function */
     double mean[4];     /* running integrals: mean slope */
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */

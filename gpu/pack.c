@@ -45,7 +45,7 @@ static float map_scalar(double x, double lo, double hi)
         return NAN;
     if (!(hi > lo))
         return 0;
-    return (float)((x - lo) / (hi - lo));
+    return (float)((0.5 * x - 0.5 * lo) / (0.5 * hi - 0.5 * lo)); /* halves: the range may exceed what a double holds */
 }
 
 static void pack_vertices(tc_pack *pack, const tc_mesh *mesh)

@@ -27,7 +27,8 @@ typedef struct loop {
     GLsync lock_fence;
     GLuint *pass_query; /* counting: one each pass */
     size_t pass_capacity;
-    int64_t open; /* rays not known to be finished */
+    int64_t entered; /* rays of this layer */
+    int64_t open;    /* rays not known to be finished */
 } loop;
 
 static void bind_transfer(const tc_job *job, GLuint program)
@@ -52,10 +53,9 @@ static void bind_transfer(const tc_job *job, GLuint program)
     }
 }
 
-static tc_status prepare_programs(loop *l)
+/* The programs of the loop, compiled if need be. */
+static tc_status get_programs(GLuint *march_program, GLuint *lock_program, const tc_job *job, tc_error *err)
 {
-    const tc_job *job = l->job;
-    const tc_gl *gl = job->gl;
     char defines[512];
     tc_job_defines(defines, sizeof defines, job);
     const tc_program_source march = {"screen.vert", "march.frag", defines,
@@ -63,9 +63,23 @@ static tc_status prepare_programs(loop *l)
                                          ? "integrator.glsl=integrate_table.glsl"
                                          : "integrator.glsl=integrate_integral.glsl"};
     const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL};
-    tc_status status = tc_program_get(&l->march, job->programs, &march, l->err);
-    if (status == TC_OK)
-        status = tc_program_get(&l->lock, job->programs, &lock, l->err);
+    tc_status status = tc_program_get(march_program, job->programs, &march, err);
+    return status == TC_OK ? tc_program_get(lock_program, job->programs, &lock, err) : status;
+}
+
+tc_status tc_pingpong_compile(const tc_job *job, tc_error *err)
+{
+    GLuint unused[2];
+    tc_status status = tc_first_hit_compile(job, err);
+    return status == TC_OK ? get_programs(&unused[0], &unused[1], job, err) : status;
+}
+
+/* Binds what the march reads; again after each first hit, which uses the same units. */
+static tc_status prepare_march(loop *l)
+{
+    const tc_job *job = l->job;
+    const tc_gl *gl = job->gl;
+    tc_status status = get_programs(&l->march, &l->lock, job, l->err);
     if (status != TC_OK)
         return status;
     gl->UseProgram(l->march);
@@ -118,15 +132,20 @@ static tc_status collect_lock(loop *l)
         state = gl->ClientWaitSync(l->lock_fence, GL_SYNC_FLUSH_COMMANDS_BIT, WAIT_NS);
     gl->DeleteSync(l->lock_fence);
     l->lock_fence = NULL;
+    if (state == GL_WAIT_FAILED)
+        return tc_gl_check(gl, "waiting for a pass", l->err) != TC_OK
+                   ? TC_E_GL
+                   : tc_fail(l->err, TC_E_GL, "%s failed while it rendered a pass", gl->renderer);
     if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED)
         return tc_fail(l->err, TC_E_GL, "%s did not finish a pass within an hour; use fewer --steps-per-pass",
                        gl->renderer);
-    GLuint available = 0, finished = 0;
+    GLuint available = 0;
+    GLuint64 finished = 0;
     do
         gl->GetQueryObjectuiv(l->lock_query, GL_QUERY_RESULT_AVAILABLE, &available);
     while (!available);
-    gl->GetQueryObjectuiv(l->lock_query, GL_QUERY_RESULT, &finished);
-    l->open -= finished;
+    gl->GetQueryObjectui64v(l->lock_query, GL_QUERY_RESULT, &finished);
+    l->open -= (int64_t)finished;
     return TC_OK;
 }
 
@@ -179,6 +198,7 @@ static tc_status march_layer(loop *l)
     if (l->result->layers == 0)
         l->result->rays = l->open;
     l->result->layers++;
+    l->entered = l->open;
     int interval = job->z_update_every > 0 ? job->z_update_every : 2, since = 0, ahead = 0;
     int64_t passes = 0;
     int64_t limit = ((int64_t)job->mesh->n_cell + 2) / job->steps_per_pass + 2 * interval + AHEAD + 4;
@@ -213,9 +233,9 @@ static tc_status read_fragments(loop *l)
     if (!l->result->fragments)
         return tc_fail_memory(l->err, "the pass counters", (size_t)l->result->passes, sizeof *l->result->fragments);
     for (int i = 0; i < l->result->passes; i++) {
-        GLuint n = 0;
-        gl->GetQueryObjectuiv(l->pass_query[i], GL_QUERY_RESULT, &n);
-        l->result->fragments[i] = n;
+        GLuint64 n = 0;
+        gl->GetQueryObjectui64v(l->pass_query[i], GL_QUERY_RESULT, &n);
+        l->result->fragments[i] = (int64_t)n;
     }
     return TC_OK;
 }
@@ -229,7 +249,7 @@ tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err
     clear_state(job);
     tc_status status = tc_first_hit(job, 0, err);
     if (status == TC_OK)
-        status = prepare_programs(&l);
+        status = prepare_march(&l);
     gl->Finish();
     out->ms_first_hit = tc_now_ms() - start;
     start = tc_now_ms();
@@ -246,13 +266,13 @@ tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err
         }
         if (!job->peel)
             break;
-        if ((size_t)layer > job->mesh->n_face) {
-            out->rays_lost = l.open;
+        if ((size_t)layer > job->mesh->n_face) { /* more entries than there are faces */
+            out->rays_lost = l.entered;
             break;
         }
         status = tc_first_hit(job, layer + 1, err);
         if (status == TC_OK)
-            status = prepare_programs(&l);
+            status = prepare_march(&l);
     }
     gl->Finish();
     out->ms_march = tc_now_ms() - start;

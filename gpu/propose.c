@@ -96,7 +96,7 @@ static void propose_face(tc_proposals *out, const screen *s, int32_t face, const
         longest = fmaxf(longest, l[i]);
     }
     float area = cross(e[0], minus(p[2], p[0]));
-    if (area < -(1 + s->margin) * (1 + 0.02f * longest))
+    if (area < -1 - (0.02f + 4 * s->margin) * (longest + s->margin))
         return; /* clearly looks away */
     float lo_x = fminf(p[0].x, fminf(p[1].x, p[2].x)) - s->margin,
           hi_x = fmaxf(p[0].x, fmaxf(p[1].x, p[2].x)) + s->margin;

@@ -173,8 +173,7 @@ static void set_scissor(const tc_gl *gl, const int *rect)
 static tc_status resolve(tc_gpu_renderer *r, const tc_job *job, tc_error *err)
 {
     const tc_gl *gl = &r->context->gl;
-    char defines[512];
-    tc_job_defines(defines, sizeof defines, job);
+    const char *defines = job->integrator == TC_INTEGRATOR_INTEGRAL ? "#define COLOR_HOLDS_DEPTH\n" : "";
     const tc_program_source source = {"screen.vert", "resolve.frag", defines, NULL};
     GLuint program;
     tc_status status = tc_program_get(&program, r->programs, &source, err);
@@ -205,7 +204,8 @@ static void fill_stats(tc_render_stats *stats, tc_gpu_renderer *r, const tc_job 
     snprintf(stats->integrator, sizeof stats->integrator, "%s",
              job->integrator == TC_INTEGRATOR_TABLE ? "table" : "integral");
     stats->gpu_bytes_mesh = (double)(r->mesh.cells.bytes + r->mesh.vertices.bytes);
-    stats->gpu_bytes_other = (double)(r->mesh.faces.bytes + r->mesh.cell_scalar.bytes);
+    stats->gpu_bytes_other =
+        (double)(r->mesh.faces.bytes + r->mesh.cell_scalar.bytes + r->proposals.n * sizeof *r->proposals.corner);
     stats->gpu_bytes_table = (double)r->transfer.textures.bytes;
     stats->gpu_bytes_state = (double)r->state.bytes;
     stats->steps_per_pass = job->steps_per_pass;
@@ -239,7 +239,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     status = ensure_mesh(r, mesh, stats, err);
     if (status == TC_OK)
         status = ensure_state(r, options, peel, err);
-    tc_job job = {.gl = gl, .programs = r->programs, .state = &r->state, .mesh = &r->mesh, .log = frame->log};
+    tc_job job = {.gl = gl, .programs = r->programs, .state = &r->state, .mesh = &r->mesh};
     if (status == TC_OK) {
         job.length_unit = 1 / (r->scale * frame->unit_distance);
         job.cell_data = r->mesh.cell_scalar.texture != 0;
@@ -279,6 +279,9 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
         gl->BindFramebuffer(GL_FRAMEBUFFER, r->state.set[0].framebuffer);
         gl->ClearBufferuiv(GL_COLOR, 3, none);
     }
+    status = tc_pingpong_compile(&job, err);
+    if (status != TC_OK)
+        return status;
     double start = tc_now_ms();
     tc_job_result result = {0};
     r->proposals.n = 0;
@@ -296,7 +299,8 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     stats->ms_frame = tc_now_ms() - start;
     gl->Disable(GL_SCISSOR_TEST);
     stats->ms_compile = tc_program_cache_ms(r->programs) - compile_before;
-    fill_stats(stats, r, &job, &result);
+    if (status == TC_OK)
+        fill_stats(stats, r, &job, &result);
     if (status == TC_OK && options->count) {
         free(r->fragments);
         r->fragments = result.fragments;

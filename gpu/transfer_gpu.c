@@ -102,10 +102,11 @@ static bool needs_split(const tc_transfer_gpu_request *request)
 static void bind(tc_job *job, const tc_transfer_gpu *t)
 {
     job->integrator = t->integrator;
-    double range = t->scalar[1] > t->scalar[0] ? t->scalar[1] - t->scalar[0] : 0;
-    double width = t->span[1] - t->span[0];
+    /* Halves: the range may exceed what a double holds. */
+    double range = t->scalar[1] > t->scalar[0] ? 0.5 * t->scalar[1] - 0.5 * t->scalar[0] : 0;
+    double width = 0.5 * t->span[1] - 0.5 * t->span[0];
     job->map[0] = range / width;
-    job->map[1] = (t->scalar[0] - t->span[0]) / width;
+    job->map[1] = (0.5 * t->scalar[0] - 0.5 * t->span[0]) / width;
     job->extend = t->integrator == TC_INTEGRATOR_INTEGRAL && range > 0 &&
                   (t->span[0] > t->scalar[0] || t->span[1] < t->scalar[1]);
     memcpy(job->mean, t->mean, sizeof job->mean);

@@ -24,7 +24,9 @@ void main()
     int facing;
     if (!walk_face(w, ray, face.w, face.xyz, facing) || facing < 0)
         discard;
-    float key = clamp(w.z * 0.125 + 0.5, 0.0, 1.0);
+    if (w.z < ray.eye)
+        discard; // the signs hold for the whole line, the picture is what lies before the eye
+    float key = 0.5 + 0.5 * w.z / (1.0 + abs(w.z));
 #ifdef PEEL
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     ivec2 mine = ivec2(floatBitsToInt(key), face_id + 1); // the bits of a positive float sort as it does

@@ -42,6 +42,9 @@ struct Integral {
 TfSample tf_sample(float s)
 {
     TfSample f;
+#ifdef NONFINITE
+    s = isnan(s) ? 0.0 : s; // of a cell that contributes nothing
+#endif
     f.x = s * tf_map.x + tf_map.y;
 #ifdef TF_EXTEND // the data reach beyond the function's knots, where it is constant
     float inside = clamp(f.x, 0.0, 1.0);
@@ -113,7 +116,7 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float t)
 void integral_add(inout Integral i, float s, float l)
 {
 #ifdef TF_SPLIT
-    // Pieces thin enough for the drift to be linear. A piece that proves too thick is shortened once or twice.
+    // Pieces thin enough for the drift to be linear. A piece that proves too thick is shortened, up to three times.
     float s0 = (i.front.x - tf_map.y) / tf_map.x;
     float from = 0.0, to = 1.0;
     int shortened = 0;

@@ -12,6 +12,7 @@ struct Integral {
 
 vec3 tf_coordinate(float front, float back, float l)
 {
+    // max() and min() drop a NaN, of a cell that contributes nothing.
     vec2 x = clamp(vec2(front, back) * tf_map.x + tf_map.y, 0.0, 1.0);
     return vec3(x.x * tf_texel[0].x + tf_texel[0].y, x.y * tf_texel[1].x + tf_texel[1].y, l * tf_texel[2].x + tf_texel[2].y);
 }

@@ -1,12 +1,14 @@
 // ray.glsl: the ray of a pixel and its frame (design: "Ray frame").
 // Lengths are in half diagonals of the bounding box, whose centre is the origin.
 
-uniform dvec3 ray_point, ray_point_dx, ray_point_dy;             // affine in the pixel; see scene_rays in frame.c
+uniform dvec3 ray_point, ray_point_dx, ray_point_dy;             // affine in the pixel; see tc_frame_build
 uniform dvec3 ray_direction, ray_direction_dx, ray_direction_dy; // not normalised
+uniform float ray_eye; // the origin lies this many (unnormalised) directions beyond the eye
 uniform vec3 ray_up;
 
 struct Ray {
     vec3 o;       // origin of the frame: the point in the plane through the mesh's centre, or the eye when it is near
+    float eye;    // depth of the eye: a mesh that the eye is outside of is seen only beyond it
     vec3 u, v, d; // orthonormal; d is the direction; cross(u, v) = -d, so that faces seen from outside run counter-clockwise
 };
 
@@ -23,6 +25,7 @@ Ray ray_of_pixel(vec2 pixel)
     u /= length_u;
     precise vec3 v = vec3(u.y * d.z - u.z * d.y, u.z * d.x - u.x * d.z, u.x * d.y - u.y * d.x);
     ray.o = o;
+    ray.eye = -ray_eye * length_d;
     ray.u = u;
     ray.v = v;
     ray.d = d;

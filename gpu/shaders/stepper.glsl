@@ -33,10 +33,11 @@ vec4 walk_vertex(Ray ray, int id)
     return vec4(ray_project(ray, x.xyz), x.w);
 }
 
-// Fetches what the next step will look at. Harmless outside the mesh: what it fetches there is never used.
+// Fetches what the next step will look at; outside the mesh something that is there and never used.
 void walk_look_ahead(inout Walk w)
 {
-    w.ahead = mesh_fourth_vertex(w.cell, w.id);
+    int id = mesh_fourth_vertex(max(w.cell, 0), w.id);
+    w.ahead = w.cell < 0 ? w.id.x : id;
     w.ahead_vertex = fetch(mesh_vertices, w.ahead);
 }
 
@@ -108,7 +109,7 @@ Segment walk_step(inout Walk w, Ray ray)
     // always the face's own: the one before it belonged to other vertices.
     bool forward = at.x > w.z;
 #ifdef NONFINITE
-    w.s = forward || !segment.real || isnan(w.s) ? at.y : w.s;
+    w.s = forward || !segment.real || isnan(w.s) || isnan(at.y) ? at.y : w.s;
 #else
     w.s = forward || !segment.real ? at.y : w.s;
 #endif
