@@ -40,6 +40,51 @@ static void eye_inside_the_mesh_sees_something_else(void **state)
     tc_mesh_destroy(&mesh);
 }
 
+/* A bar 6 long and 0.2 wide, along x from -3 to 3, six tets a cube: an eye past its end is outside its sphere, but the
+ * eye's plane may cut it, and the lines of its rays meet it behind the eye. */
+static tc_mesh *bar(void)
+{
+    enum { N = 30 };
+    static double vertex[(N + 1) * 4][3], scalar[(N + 1) * 4];
+    static int32_t tet[N * 6][4];
+    for (int i = 0; i <= N; i++)
+        for (int c = 0; c < 4; c++) {
+            double *x = vertex[4 * i + c];
+            x[0] = -3 + 6.0 * i / N;
+            x[1] = c & 1 ? 0.1 : -0.1;
+            x[2] = c & 2 ? 0.1 : -0.1;
+            scalar[4 * i + c] = x[0] + x[1];
+        }
+    static const int path[6][2] = {{1, 2}, {1, 4}, {2, 1}, {2, 4}, {4, 1}, {4, 2}}; /* bits: 1 y, 2 z, 4 x */
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < 6; k++) {
+            const int corner[4] = {0, path[k][0], path[k][0] | path[k][1], 7};
+            for (int v = 0; v < 4; v++)
+                tet[6 * i + k][v] = 4 * (i + (corner[v] >> 2)) + (corner[v] & 3);
+        }
+    const tc_mesh_arrays arrays = {.n_vertex = (N + 1) * 4,
+                                   .vertex = vertex[0],
+                                   .n_tet = N * 6,
+                                   .tet = tet[0],
+                                   .scalar = scalar,
+                                   .association = TC_POINT_DATA};
+    return suite_mesh(&arrays, TC_REENTRY_AUTO);
+}
+
+static void what_lies_behind_the_eye_is_seen(void **state)
+{
+    (void)state;
+    const tc_camera past_the_end[] = {
+        look(3.1, 0.02, 0.03, 3.1, 1, 0.3, 40),  look(3.1, 0.02, 0.03, 3.2, -1, 0.2, 120),
+        look(3.1, 0.02, 0.03, 4, 1, 0.3, 150),   look(3.3, 0.3, 0.1, 3.2, 0.1, 1, 100),
+        look(3.1, 0.02, 0.03, 2, 0.3, 0.1, 160), look(7, 0.1, 0.2, 6.5, 3, 0.3, 140),
+        look(0.1, 0.3, 9, 0.1, 20, -60, 178.5),
+    };
+    tc_mesh *mesh = bar();
+    check_eyes(mesh, "past the end of a bar", past_the_end, sizeof past_the_end / sizeof *past_the_end);
+    tc_mesh_destroy(&mesh);
+}
+
 static void eye_in_a_gap_or_fin_of_the_heat_sink_sees_something_else(void **state)
 {
     (void)state;
@@ -276,6 +321,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(eye_inside_the_mesh_sees_something_else),
         cmocka_unit_test(eye_in_a_gap_or_fin_of_the_heat_sink_sees_something_else),
         cmocka_unit_test(eye_in_the_cavity_of_the_shells_sees_something_else),
+        cmocka_unit_test(what_lies_behind_the_eye_is_seen),
         cmocka_unit_test(eye_near_far_or_behind_sees_something_else),
         cmocka_unit_test(wide_narrow_parallel_or_upright_views_are_wrong),
         cmocka_unit_test(rays_through_vertices_and_along_edges_are_lost),
