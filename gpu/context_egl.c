@@ -16,12 +16,12 @@ typedef struct egl_state {
     void *library;
     void *(*get_proc)(const char *name);
     EGLBoolean (*initialize)(EGLDisplay, EGLint *, EGLint *);
-    EGLBoolean (*terminate)(EGLDisplay);
     EGLBoolean (*bind_api)(EGLenum);
     EGLBoolean (*choose_config)(EGLDisplay, const EGLint *, EGLConfig *, EGLint, EGLint *);
     EGLContext (*create_context)(EGLDisplay, EGLConfig, EGLContext, const EGLint *);
     EGLBoolean (*destroy_context)(EGLDisplay, EGLContext);
     EGLBoolean (*make_current)(EGLDisplay, EGLSurface, EGLSurface, EGLContext);
+    EGLContext (*get_current)(void);
     const char *(*query_string)(EGLDisplay, EGLint);
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display;
     PFNEGLQUERYDEVICESEXTPROC query_devices;
@@ -43,14 +43,15 @@ static void load_extension(egl_state *s, const char *name, void *function)
     memcpy(function, &p, sizeof p);
 }
 
+/* Destroys our context. The display stays initialised: there is one a device in the whole process, which other
+ * renderers and the host may use too, and eglTerminate would end theirs. */
 static void close_display(egl_state *s)
 {
-    if (s->display == EGL_NO_DISPLAY)
-        return;
-    s->make_current(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (s->context != EGL_NO_CONTEXT)
+    if (s->context != EGL_NO_CONTEXT) {
+        if (s->get_current() == s->context)
+            s->make_current(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         s->destroy_context(s->display, s->context);
-    s->terminate(s->display);
+    }
     s->context = EGL_NO_CONTEXT;
     s->display = EGL_NO_DISPLAY;
 }
@@ -111,7 +112,7 @@ static tc_status egl_create(tc_context *context, tc_error *err)
     if (!s->library)
         return tc_fail(err, TC_E_GL, "libEGL.so.1 is not installed (Debian: libegl1)");
     if (!load(s, "eglGetProcAddress", &s->get_proc) || !load(s, "eglInitialize", &s->initialize) ||
-        !load(s, "eglTerminate", &s->terminate) || !load(s, "eglBindAPI", &s->bind_api) ||
+        !load(s, "eglBindAPI", &s->bind_api) || !load(s, "eglGetCurrentContext", &s->get_current) ||
         !load(s, "eglChooseConfig", &s->choose_config) || !load(s, "eglCreateContext", &s->create_context) ||
         !load(s, "eglDestroyContext", &s->destroy_context) || !load(s, "eglMakeCurrent", &s->make_current) ||
         !load(s, "eglQueryString", &s->query_string))
@@ -145,8 +146,7 @@ static void egl_finish(tc_context *context)
     egl_state *s = context->state;
     if (!s)
         return;
-    if (s->terminate)
-        close_display(s);
+    close_display(s);
     free(s); /* the library stays loaded: drivers do not survive a dlclose */
     context->state = NULL;
 }

@@ -60,24 +60,26 @@ static tc_status osmesa_create(tc_context *context, tc_error *err)
     if (!load(s, "OSMesaCreateContextAttribs", &s->create) || !load(s, "OSMesaDestroyContext", &s->destroy) ||
         !load(s, "OSMesaMakeCurrent", &s->make_current) || !load(s, "OSMesaGetProcAddress", &s->get_proc))
         return tc_fail(err, TC_E_GL, "libOSMesa is too old: OSMesaCreateContextAttribs is missing (Mesa 12 or later)");
-    const int attributes[] = {OSMESA_FORMAT,
-                              OSMESA_RGBA,
-                              OSMESA_DEPTH_BITS,
-                              0,
-                              OSMESA_STENCIL_BITS,
-                              0,
-                              OSMESA_ACCUM_BITS,
-                              0,
-                              OSMESA_PROFILE,
-                              OSMESA_CORE_PROFILE,
-                              OSMESA_CONTEXT_MAJOR_VERSION,
-                              4,
-                              OSMESA_CONTEXT_MINOR_VERSION,
-                              5,
-                              0};
-    s->context = s->create(attributes, NULL);
+    for (int minor = 5; minor >= 3 && !s->context; minor -= 2) {
+        const int attributes[] = {OSMESA_FORMAT,
+                                  OSMESA_RGBA,
+                                  OSMESA_DEPTH_BITS,
+                                  0,
+                                  OSMESA_STENCIL_BITS,
+                                  0,
+                                  OSMESA_ACCUM_BITS,
+                                  0,
+                                  OSMESA_PROFILE,
+                                  OSMESA_CORE_PROFILE,
+                                  OSMESA_CONTEXT_MAJOR_VERSION,
+                                  4,
+                                  OSMESA_CONTEXT_MINOR_VERSION,
+                                  minor,
+                                  0};
+        s->context = s->create(attributes, NULL);
+    }
     if (!s->context)
-        return tc_fail(err, TC_E_GL, "OSMesa offers no OpenGL 4.5 core context");
+        return tc_fail(err, TC_E_GL, "OSMesa offers no OpenGL 4.3 core context");
     tc_status status = osmesa_make_current(context, err);
     return status == TC_OK ? tc_gl_load(&context->gl, s->get_proc, err) : status;
 }

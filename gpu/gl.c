@@ -11,7 +11,7 @@ tc_status tc_gl_load(tc_gl *gl, tc_get_proc get_proc, tc_error *err)
 #define X(type, name)                                                                                                  \
     p = get_proc("gl" #name);                                                                                          \
     if (!p)                                                                                                            \
-        return tc_fail(err, TC_E_GL, "the GL context has no function gl" #name "; OpenGL 4.5 is needed");              \
+        return tc_fail(err, TC_E_GL, "the GL context has no function gl" #name "; OpenGL 4.3 is needed");              \
     memcpy(&gl->name, &p, sizeof p);
     TC_GL_FUNCTIONS(X)
 #undef X

@@ -1,4 +1,4 @@
-/* gl.h: the GL 4.5 core functions that the renderer calls, as one table filled from a context's get_proc_address.
+/* gl.h: the GL 4.3 core functions that the renderer calls, as one table filled from a context's get_proc_address.
  * No GL library is linked: a table belongs to a context. */
 #ifndef TC_GPU_GL_H
 #define TC_GPU_GL_H
@@ -23,7 +23,6 @@
     X(PFNGLBLENDEQUATIONSEPARATEPROC, BlendEquationSeparate)                                                           \
     X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                                           \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                                                 \
-    X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                                           \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                                         \
     X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                                                                           \
     X(PFNGLCLEARBUFFERIVPROC, ClearBufferiv)                                                                           \
@@ -47,7 +46,6 @@
     X(PFNGLDEPTHRANGEPROC, DepthRange)                                                                                 \
     X(PFNGLDISABLEPROC, Disable)                                                                                       \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                                 \
-    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                               \
     X(PFNGLDRAWBUFFERSPROC, DrawBuffers)                                                                               \
     X(PFNGLENABLEPROC, Enable)                                                                                         \
     X(PFNGLENDQUERYPROC, EndQuery)                                                                                     \
@@ -70,8 +68,8 @@
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                               \
     X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                                   \
     X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                             \
-    X(PFNGLGETQUERYOBJECTUIVPROC, GetQueryObjectuiv)                                                                   \
     X(PFNGLGETQUERYOBJECTUI64VPROC, GetQueryObjectui64v)                                                               \
+    X(PFNGLGETQUERYOBJECTUIVPROC, GetQueryObjectuiv)                                                                   \
     X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                                     \
     X(PFNGLGETSHADERIVPROC, GetShaderiv)                                                                               \
     X(PFNGLGETSTRINGPROC, GetString)                                                                                   \
@@ -87,18 +85,15 @@
     X(PFNGLSCISSORPROC, Scissor)                                                                                       \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                             \
     X(PFNGLTEXBUFFERPROC, TexBuffer)                                                                                   \
-    X(PFNGLTEXIMAGE1DPROC, TexImage1D)                                                                                 \
     X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                                                 \
     X(PFNGLTEXIMAGE3DPROC, TexImage3D)                                                                                 \
     X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                                           \
-    X(PFNGLUNIFORM1DPROC, Uniform1d)                                                                                   \
     X(PFNGLUNIFORM1FPROC, Uniform1f)                                                                                   \
     X(PFNGLUNIFORM1IPROC, Uniform1i)                                                                                   \
     X(PFNGLUNIFORM2FPROC, Uniform2f)                                                                                   \
     X(PFNGLUNIFORM3DPROC, Uniform3d)                                                                                   \
     X(PFNGLUNIFORM3FPROC, Uniform3f)                                                                                   \
     X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                                                                 \
-    X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)                                                                     \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                                 \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                                       \
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                               \
