@@ -34,7 +34,8 @@ typedef struct tc_pack {
     double ms;
 } tc_pack;
 
-/* The mesh must be prepared. Errors: TC_E_ARG, TC_E_MEMORY. Cost: O(cells), about 0.1 us a cell. */
+/* The mesh must be prepared. Errors: TC_E_ARG (not prepared), TC_E_MESH (more cells than 32 bits
+ * address), TC_E_MEMORY. Cost: O(cells), about 0.1 us a cell. */
 tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err);
 void tc_pack_finish(tc_pack *pack);
 

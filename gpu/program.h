@@ -11,8 +11,8 @@ typedef struct tc_shader_file {
 /* Every shader file; {NULL, NULL} ends the list. */
 extern const tc_shader_file tc_shader_files[];
 
-/* What a program is made of. `defines` are lines such as "#define PEEL\n" (may be ""); `aliases` are pairs of include
- * names, "integrator.glsl=integrate_table.glsl" or NULL. */
+/* What a program is made of. `defines` are lines such as "#define PEEL\n" (may be ""); `alias` is one pair of include
+ * names, "integrator.glsl=integrate_table.glsl" (the first is read as the second), or NULL. */
 typedef struct tc_program_source {
     const char *vertex, *fragment;
     const char *defines;
@@ -23,8 +23,9 @@ typedef struct tc_program_cache tc_program_cache;
 
 /* Programs live in the cache; equal final text gives the same program. */
 tc_status tc_program_cache_create(tc_program_cache **out, const tc_gl *gl, tc_error *err);
-/* Errors: TC_E_GL with the compiler's first message as file:line. ms_compile is added to. */
+/* Errors: TC_E_GL with the compiler's first message as file:line. The time it takes is added to tc_program_cache_ms. */
 tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_program_source *source, tc_error *err);
+/* All compiling and linking so far, in ms. */
 double tc_program_cache_ms(const tc_program_cache *cache);
 void tc_program_cache_destroy(tc_program_cache **cache);
 

@@ -10,11 +10,28 @@ static const GLenum switches[] = {GL_DEPTH_TEST,         GL_BLEND,
                                   GL_CLIP_DISTANCE0,     GL_CLIP_DISTANCE1,
                                   GL_CLIP_DISTANCE2,     GL_CLIP_DISTANCE3,
                                   GL_CLIP_DISTANCE4,     GL_CLIP_DISTANCE5,
-                                  GL_FRAMEBUFFER_SRGB,   GL_SAMPLE_MASK};
+                                  GL_CLIP_DISTANCE6,     GL_CLIP_DISTANCE7,
+                                  GL_FRAMEBUFFER_SRGB,   GL_SAMPLE_MASK,
+                                  GL_SAMPLE_COVERAGE,    GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                  GL_SAMPLE_ALPHA_TO_ONE};
 _Static_assert(sizeof switches / sizeof *switches == TC_SAVED_SWITCHES, "saved.h counts the switches");
+
+/* How pixels lie in memory, and as a new context has it. */
+static const struct {
+    GLenum name;
+    GLint initial;
+} stores[] = {{GL_PACK_ALIGNMENT, 4},     {GL_PACK_ROW_LENGTH, 0},     {GL_PACK_SKIP_ROWS, 0},
+              {GL_PACK_SKIP_PIXELS, 0},   {GL_PACK_SWAP_BYTES, 0},     {GL_UNPACK_ALIGNMENT, 4},
+              {GL_UNPACK_ROW_LENGTH, 0},  {GL_UNPACK_SKIP_ROWS, 0},    {GL_UNPACK_SKIP_PIXELS, 0},
+              {GL_UNPACK_SKIP_IMAGES, 0}, {GL_UNPACK_IMAGE_HEIGHT, 0}, {GL_UNPACK_SWAP_BYTES, 0}};
+_Static_assert(sizeof stores / sizeof *stores == TC_SAVED_STORES, "saved.h counts the stores");
+
+enum { MAX_ERRORS = 64 }; /* a lost context gives errors without end */
 
 void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
 {
+    for (int i = 0; i < MAX_ERRORS && gl->GetError() != GL_NO_ERROR; i++)
+        ;
     gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &s->draw_framebuffer);
     gl->GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &s->read_framebuffer);
     gl->GetIntegerv(GL_CURRENT_PROGRAM, &s->program);
@@ -36,10 +53,10 @@ void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
     gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &s->unpack_buffer);
     gl->GetIntegerv(GL_POLYGON_MODE, s->polygon_mode);
     gl->GetFloatv(GL_DEPTH_RANGE, s->depth_range);
-    gl->GetIntegerv(GL_PACK_ROW_LENGTH, &s->pack_row_length);
-    gl->GetIntegerv(GL_PACK_SKIP_ROWS, &s->pack_skip_rows);
-    gl->GetIntegerv(GL_PACK_SKIP_PIXELS, &s->pack_skip_pixels);
-    gl->GetIntegerv(GL_PACK_ALIGNMENT, &s->pack_alignment);
+    for (int i = 0; i < TC_SAVED_STORES; i++) {
+        gl->GetIntegerv(stores[i].name, &s->store[i]);
+        gl->PixelStorei(stores[i].name, stores[i].initial);
+    }
     gl->GetBooleanv(GL_DEPTH_WRITEMASK, &s->depth_mask);
     gl->GetBooleanv(GL_COLOR_WRITEMASK, s->color_mask);
     for (int i = 0; i < TC_SAVED_SWITCHES; i++) {
@@ -65,9 +82,6 @@ void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
     }
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-    gl->PixelStorei(GL_PACK_ROW_LENGTH, 0);
-    gl->PixelStorei(GL_PACK_SKIP_ROWS, 0);
-    gl->PixelStorei(GL_PACK_SKIP_PIXELS, 0);
     gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
@@ -104,10 +118,8 @@ void tc_gl_restore(const tc_gl_saved *s, const tc_gl *gl)
     gl->BlendFuncSeparate((GLenum)s->blend_src_rgb, (GLenum)s->blend_dst_rgb, (GLenum)s->blend_src_alpha,
                           (GLenum)s->blend_dst_alpha);
     gl->BlendEquationSeparate((GLenum)s->blend_equation_rgb, (GLenum)s->blend_equation_alpha);
-    gl->PixelStorei(GL_PACK_ALIGNMENT, s->pack_alignment);
-    gl->PixelStorei(GL_PACK_ROW_LENGTH, s->pack_row_length);
-    gl->PixelStorei(GL_PACK_SKIP_ROWS, s->pack_skip_rows);
-    gl->PixelStorei(GL_PACK_SKIP_PIXELS, s->pack_skip_pixels);
+    for (int i = 0; i < TC_SAVED_STORES; i++)
+        gl->PixelStorei(stores[i].name, s->store[i]);
     gl->BindBuffer(GL_ARRAY_BUFFER, (GLuint)s->array_buffer);
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)s->pack_buffer);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);

@@ -4,7 +4,7 @@
 
 #include "gpu/gl.h"
 
-enum { TC_SAVED_UNITS = 9, TC_SAVED_IMAGES = 3, TC_SAVED_SWITCHES = 18 };
+enum { TC_SAVED_UNITS = 9, TC_SAVED_IMAGES = 3, TC_SAVED_SWITCHES = 23, TC_SAVED_STORES = 12 };
 
 typedef struct tc_gl_saved {
     GLint draw_framebuffer, read_framebuffer, program, vertex_array, active_texture, renderbuffer, texture_buffer;
@@ -13,7 +13,8 @@ typedef struct tc_gl_saved {
         unit_sampler[TC_SAVED_UNITS];
     GLint array_buffer, pack_buffer, unpack_buffer;
     GLint depth_func, blend_src_rgb, blend_dst_rgb, blend_src_alpha, blend_dst_alpha, blend_equation_rgb,
-        blend_equation_alpha, pack_alignment, pack_row_length, pack_skip_rows, pack_skip_pixels, polygon_mode[2];
+        blend_equation_alpha, polygon_mode[2];
+    GLint store[TC_SAVED_STORES]; /* of saved.c's list */
     GLfloat depth_range[2];
     GLint image[TC_SAVED_IMAGES], image_level[TC_SAVED_IMAGES], image_layer[TC_SAVED_IMAGES],
         image_access[TC_SAVED_IMAGES], image_format[TC_SAVED_IMAGES];
@@ -22,8 +23,10 @@ typedef struct tc_gl_saved {
     GLboolean enabled[TC_SAVED_SWITCHES]; /* of saved.c's list */
 } tc_gl_saved;
 
-/* Keeps the state and sets what the renderer expects (no samplers bound, every switch off, …). */
+/* Keeps the state and sets what the renderer expects (no samplers bound, every switch off, pixel storage as in a new
+ * context, …). GL errors of the host's that are pending are dropped, or they would be taken for ours. */
 void tc_gl_save(tc_gl_saved *saved, const tc_gl *gl);
+/* Puts it back; in the same context. */
 void tc_gl_restore(const tc_gl_saved *saved, const tc_gl *gl);
 
 #endif
