@@ -294,8 +294,17 @@ typedef struct tc_renderer_options {
     int threads;        /* 0: all cores */
 } tc_renderer_options;
 
+/* options NULL: all defaults. Driver auto takes pingpong; where no GL context can be made it says so to log and takes
+ * reference, but only if neither a gl nor a host's context was asked for. gl auto takes EGL on a GPU, else OSMesa, else
+ * EGL in software. A context of the renderer's own is made current on the calling thread, by this call and by each
+ * that renders, and stays so; whatever was current before is not put back. A renderer is used by one thread at a time;
+ * several renderers may live beside each other. With get_proc_address the host's context must be current in every call
+ * that takes the renderer.
+ * Errors: TC_E_ARG (unknown gl or driver: lists them; reference with a host's context), TC_E_GL (no context, or one
+ * before OpenGL 4.3: says why), TC_E_MEMORY. Cost: making a context, 10 to some 100 ms. */
 TC_API tc_status tc_renderer_create(tc_renderer **out, const tc_renderer_options *options, const tc_log *log,
                                     tc_error *err);
+/* Frees what is in the GL context, and the context if it is the renderer's own. A host's context must be current. */
 TC_API void tc_renderer_destroy(tc_renderer **renderer);
 
 /* A picture's settings; zero-initialise, then tc_render_defaults. */
@@ -307,7 +316,7 @@ typedef struct tc_render_options {
     double unit_distance;         /* 0: bounds diagonal / cbrt(cells) */
     double opacity_stop;          /* a ray ends at this alpha; 1: never */
     int steps_per_pass;           /* K; 0: auto */
-    int z_update_every;           /* passes between z-locks; 0: auto; -1: never lock */
+    int z_update_every;           /* passes between z-locks, 1 … 65536, rounded up to even; 0: auto; -1: never lock */
     bool count;                   /* count steps, fragments per pass (costs time) */
 } tc_render_options;
 
@@ -327,11 +336,19 @@ typedef struct tc_render_stats {
 
 /* Renders to out (made by the call). The mesh must be prepared; it, tf and camera are borrowed. Mesh, function and
  * programs stay uploaded in the renderer until another one is given, so a second frame costs first hit and march only.
- * Errors: TC_E_LOST (out is still made, for diagnosis), TC_E_GL, TC_E_MEMORY, TC_E_EMPTY is never given here. */
+ * In a host's context (get_proc_address) the GL state is put back as in tc_render_gl.
+ * Errors: TC_E_ARG (an option out of its range, a mesh that is not prepared, a camera without a direction), TC_E_LOST
+ * (out is still made, for diagnosis), TC_E_MESH (too many cells for the driver), TC_E_GL, TC_E_MEMORY. */
 TC_API tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
                            const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
                            const tc_log *log, tc_error *err);
-/* The same into the framebuffer object `framebuffer` of the current, host-owned context, over what it holds. */
+/* The same into the framebuffer object `framebuffer` (0: the window) of the current, host-owned context, over what it
+ * holds: premultiplied (ONE, ONE_MINUS_SRC_ALPHA), into its lower left options->width x options->height pixels, with
+ * neither depth nor scissor test. The GL state that the renderer touches is put back, on failure too; errors of the
+ * host's that are pending (glGetError) are dropped. No query of the host's for samples passed or primitives may be
+ * active.
+ * Errors: TC_E_ARG (as tc_render; a renderer whose driver does not use GL), TC_E_LOST (nothing is drawn), TC_E_MESH,
+ * TC_E_GL, TC_E_MEMORY. */
 TC_API tc_status tc_render_gl(unsigned framebuffer, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
                               const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
                               const tc_log *log, tc_error *err);
@@ -341,11 +358,15 @@ typedef struct tc_verify_result {
     double max_abs_error, p999_abs_error, mean_abs_error; /* without the ill-posed rays */
     double worst_error_ill_posed;
     int worst_x, worst_y;
-    int64_t rays_lost;
+    int64_t rays_lost; /* -1 from tc_verify: a picture does not tell; tc_render_stats.rays_lost is the count */
 } tc_verify_result;
 
 /* Re-traces n pixels of image (before its background; chosen with seed, n >= all pixels: all) with the
- * double-precision reference and compares in float. */
+ * double-precision reference and compares in float. options and camera are those of the picture; opacity_stop is not
+ * applied: the truth has no early end, so the error of stopping is in the result. options->width and height are the
+ * picture's. Ill-posed rays, whose true colour jumps when they are shifted by a rounding error, are counted apart.
+ * Errors: TC_E_ARG (as tc_render; sizes differ), TC_E_MEMORY. Cost: on all cores, O(cells log cells) to build a
+ * hierarchy that is not kept (about 130 bytes a tet at the peak), then O(log cells + segments) for each pixel. */
 TC_API tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed, const tc_mesh *mesh,
                            const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
                            const tc_log *log, tc_error *err);

@@ -11,15 +11,17 @@ struct tc_renderer {
     const struct tc_driver *driver;
     int threads;
     tc_gpu_renderer *gpu; /* pingpong */
+    bool host;            /* gpu lives in a context that the host owns */
     tc_reference *reference;
-    uint64_t reference_serial, reference_scalar_serial;
+    uint64_t reference_serial; /* of the mesh that reference stands for */
 };
 
 typedef struct tc_driver {
     const char *name;
+    bool needs_gl;
     /* Fails where the driver cannot run here; err says why. */
     tc_status (*create)(tc_renderer *renderer, const tc_renderer_options *options, const tc_log *log, tc_error *err);
-    /* One frame into image (made by the caller); frame->options is resolved. */
+    /* One frame into image (made by the caller); frame->options is checked. */
     tc_status (*render)(tc_image *image, tc_render_stats *stats, tc_renderer *renderer, const tc_gpu_frame *frame,
                         tc_error *err);
     void (*finish)(tc_renderer *renderer);
@@ -28,9 +30,8 @@ typedef struct tc_driver {
 /* The drivers of this build, best first; `auto` takes the first that can be created. NULL name ends the table. */
 extern const tc_driver tc_drivers[];
 
-/* Checks what every driver relies on and fills options and rays. Errors: TC_E_ARG. */
-tc_status tc_render_resolve(tc_render_options *resolved, double *unit, tc_rays *rays, const tc_mesh *mesh,
-                            const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
-                            tc_error *err);
+/* Checks what every driver relies on and fills unit and rays. Errors: TC_E_ARG. */
+tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, const tc_transfer *tf,
+                            const tc_camera *camera, const tc_render_options *options, tc_error *err);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_SIZE = 65536, MAX_STEPS_PER_PASS = 1 << 20, MAX_TABLE = 1024 };
+enum { MAX_SIZE = 65536, MAX_STEPS_PER_PASS = 1 << 20, MAX_TABLE = 1024, MAX_Z_EVERY = 65536 };
 
 void tc_render_defaults(tc_render_options *options)
 {
@@ -27,9 +27,8 @@ double tc_default_unit_distance(const tc_mesh *mesh)
     return unit > 0 && isfinite(unit) ? unit : 1;
 }
 
-tc_status tc_render_resolve(tc_render_options *resolved, double *unit, tc_rays *rays, const tc_mesh *mesh,
-                            const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
-                            tc_error *err)
+tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, const tc_transfer *tf,
+                            const tc_camera *camera, const tc_render_options *options, tc_error *err)
 {
     if (!mesh || !tf || !camera || !options)
         return tc_fail(err, TC_E_ARG, "a mesh, a transfer function, a camera and options are needed");
@@ -50,7 +49,30 @@ tc_status tc_render_resolve(tc_render_options *resolved, double *unit, tc_rays *
         if (options->table_size[k] != 0 && (options->table_size[k] < 2 || options->table_size[k] > MAX_TABLE))
             return tc_fail(err, TC_E_ARG, "a table %d entries wide cannot be made; use 2 to %d", options->table_size[k],
                            MAX_TABLE);
-    *resolved = *options;
+    if (options->z_update_every < -1 || options->z_update_every > MAX_Z_EVERY)
+        return tc_fail(
+            err, TC_E_ARG,
+            "z-updates every %d passes are out of range; use 1 to %d, 0 (chosen by the renderer) or -1 (never)",
+            options->z_update_every, MAX_Z_EVERY);
+    switch ((int)options->integrator) {
+    case TC_INTEGRATOR_AUTO:
+    case TC_INTEGRATOR_TABLE:
+    case TC_INTEGRATOR_INTEGRAL:
+        break;
+    default:
+        return tc_fail(err, TC_E_ARG, "integrator %d is unknown; there are %d (auto), %d (table) and %d (integral)",
+                       (int)options->integrator, TC_INTEGRATOR_AUTO, TC_INTEGRATOR_TABLE, TC_INTEGRATOR_INTEGRAL);
+    }
+    switch ((int)options->table_format) {
+    case TC_TABLE_AUTO:
+    case TC_TABLE_8:
+    case TC_TABLE_16F:
+    case TC_TABLE_32F:
+        break;
+    default:
+        return tc_fail(err, TC_E_ARG, "table format %d is unknown; there are %d (auto), %d, %d and %d bits a channel",
+                       (int)options->table_format, TC_TABLE_AUTO, TC_TABLE_8, TC_TABLE_16F, TC_TABLE_32F);
+    }
     *unit = options->unit_distance > 0 ? options->unit_distance : tc_default_unit_distance(mesh);
     return tc_rays_from_camera(rays, camera, options->width, options->height, err);
 }
@@ -59,17 +81,24 @@ tc_status tc_render_resolve(tc_render_options *resolved, double *unit, tc_rays *
 
 static tc_status pingpong_create(tc_renderer *r, const tc_renderer_options *options, const tc_log *log, tc_error *err)
 {
+    r->host = options->get_proc_address != NULL;
     return tc_gpu_renderer_create(&r->gpu, options->gl, options->get_proc_address, options->threads, log, err);
 }
 
 static tc_status pingpong_render(tc_image *image, tc_render_stats *stats, tc_renderer *r, const tc_gpu_frame *frame,
                                  tc_error *err)
 {
+    const tc_gl *gl = &tc_gpu_renderer_context(r->gpu)->gl;
+    tc_gl_saved saved;
+    if (r->host)
+        tc_gl_save(&saved, gl);
     tc_status status = tc_gpu_render(stats, r->gpu, frame, err);
     if (status == TC_OK || status == TC_E_LOST) {
         tc_status read = tc_gpu_read(image->rgba, stats, r->gpu, status == TC_OK ? err : NULL);
         status = status == TC_OK ? read : status;
     }
+    if (r->host)
+        tc_gl_restore(&saved, gl);
     return status;
 }
 
@@ -95,13 +124,12 @@ static tc_status reference_render(tc_image *image, tc_render_stats *stats, tc_re
 {
     const tc_mesh *mesh = frame->mesh;
     tc_status status = TC_OK;
-    if (!r->reference || r->reference_serial != mesh->serial || r->reference_scalar_serial != mesh->scalar_serial) {
+    if (!r->reference || r->reference_serial != mesh->serial) { /* new scalars need no new one */
         tc_reference_destroy(&r->reference);
         double start = tc_now_ms();
         status = tc_reference_create(&r->reference, mesh, r->threads, err);
         stats->ms_pack = tc_now_ms() - start;
         r->reference_serial = mesh->serial;
-        r->reference_scalar_serial = mesh->scalar_serial;
     }
     if (status != TC_OK)
         return status;
@@ -121,8 +149,8 @@ static void reference_finish(tc_renderer *r)
 }
 
 const tc_driver tc_drivers[] = {
-    {"pingpong", pingpong_create, pingpong_render, pingpong_finish},
-    {"reference", reference_create, reference_render, reference_finish},
+    {"pingpong", true, pingpong_create, pingpong_render, pingpong_finish},
+    {"reference", false, reference_create, reference_render, reference_finish},
     {0},
 };
 
@@ -192,12 +220,11 @@ tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *rendere
         stats = &unused;
     clear_stats(stats);
     *out = NULL;
-    tc_render_options resolved;
     tc_rays rays;
-    tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = &resolved, .log = log};
-    tc_status status = tc_render_resolve(&resolved, &frame.unit_distance, &rays, mesh, tf, camera, options, err);
+    tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = options, .log = log};
+    tc_status status = tc_render_resolve(&frame.unit_distance, &rays, mesh, tf, camera, options, err);
     if (status == TC_OK)
-        status = tc_image_create(out, resolved.width, resolved.height, err);
+        status = tc_image_create(out, options->width, options->height, err);
     if (status != TC_OK)
         return status;
     status = renderer->driver->render(*out, stats, renderer, &frame, err);
@@ -217,10 +244,9 @@ tc_status tc_render_gl(unsigned framebuffer, tc_render_stats *stats, tc_renderer
     if (!renderer->gpu)
         return tc_fail(err, TC_E_ARG, "the driver '%s' does not draw into a GL context; use pingpong",
                        renderer->driver->name);
-    tc_render_options resolved;
     tc_rays rays;
-    tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = &resolved, .log = log};
-    tc_status status = tc_render_resolve(&resolved, &frame.unit_distance, &rays, mesh, tf, camera, options, err);
+    tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = options, .log = log};
+    tc_status status = tc_render_resolve(&frame.unit_distance, &rays, mesh, tf, camera, options, err);
     if (status != TC_OK)
         return status;
     tc_gl_saved saved;

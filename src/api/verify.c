@@ -8,18 +8,18 @@ tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint
                     tc_error *err)
 {
     memset(out, 0, sizeof *out);
-    tc_render_options resolved;
     tc_rays rays;
     double unit;
-    tc_status status = tc_render_resolve(&resolved, &unit, &rays, mesh, tf, camera, options, err);
-    if (status == TC_OK && (image->width != resolved.width || image->height != resolved.height))
+    tc_status status = tc_render_resolve(&unit, &rays, mesh, tf, camera, options, err);
+    if (status == TC_OK && (image->width != options->width || image->height != options->height))
         status = tc_fail(err, TC_E_ARG, "the picture is %dx%d, the options say %dx%d", image->width, image->height,
-                         resolved.width, resolved.height);
+                         options->width, options->height);
     tc_reference *reference = NULL;
     if (status == TC_OK)
         status = tc_reference_create(&reference, mesh, 0, err);
     if (status == TC_OK)
         status = tc_reference_verify(out, image, n, seed, reference, tf, unit, &rays, 0, log, err);
+    out->rays_lost = -1; /* a picture does not tell */
     tc_reference_destroy(&reference);
     return status;
 }

@@ -81,7 +81,7 @@ typedef struct scene {
     tc_transfer *tf;
     tc_camera camera;
     tc_render_options options;
-    tc_image *picture; /* by tc_render in a context of the library's own */
+    tc_image *picture, *table; /* by tc_render in a context of the library's own, by either integrator */
     GLuint target, framebuffer;
     unsigned char window[4];
 } scene;
@@ -104,6 +104,15 @@ static bool find_osmesa(void)
 static void enter(scene *s)
 {
     assert_true(make_current(s->context, s->window, GL_UNSIGNED_BYTE, 1, 1));
+}
+
+static tc_render_options table_options(const scene *s)
+{
+    tc_render_options options = s->options;
+    options.integrator = TC_INTEGRATOR_TABLE;
+    for (int k = 0; k < 3; k++)
+        options.table_size[k] = 30 + k; /* the images of a 3-D texture are no square */
+    return options;
 }
 
 static int set_up(void **state)
@@ -130,6 +139,9 @@ static int set_up(void **state)
     const tc_renderer_options osmesa = {.gl = "osmesa", .driver = "pingpong"};
     if (tc_renderer_create(&own, &osmesa, NULL, &err) != TC_OK ||
         tc_render(&s->picture, NULL, own, s->mesh, s->tf, &s->camera, &s->options, NULL, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    tc_render_options table = table_options(s);
+    if (tc_render(&s->table, NULL, own, s->mesh, s->tf, &s->camera, &table, NULL, &err) != TC_OK)
         fail_msg("%s", err.text);
     tc_renderer_destroy(&own);
 
@@ -164,6 +176,7 @@ static int tear_down(void **state)
     gl.DeleteTextures(1, &s->target);
     destroy_context(s->context);
     tc_image_destroy(&s->picture);
+    tc_image_destroy(&s->table);
     tc_transfer_destroy(&s->tf);
     tc_mesh_destroy(&s->mesh);
     free(s);
@@ -200,7 +213,7 @@ static void draw(scene *s, tc_renderer *renderer)
 }
 
 /* The largest difference between the target and the picture over the background. */
-static double measure_error(const scene *s)
+static double measure_error(const scene *s, const tc_image *picture)
 {
     static float rgba[HEIGHT][WIDTH][4];
     double worst = 0;
@@ -211,7 +224,7 @@ static double measure_error(const scene *s)
     assert_int_equal(gl.GetError(), GL_NO_ERROR);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
-            const float *p = s->picture->rgba + 4 * ((HEIGHT - 1 - y) * WIDTH + x); /* GL's row 0 is at the bottom */
+            const float *p = picture->rgba + 4 * ((HEIGHT - 1 - y) * WIDTH + x); /* GL's row 0 is at the bottom */
             for (int c = 0; c < 4; c++) {
                 double expected = (double)p[c] + (1 - (double)p[3]) * (double)background[c];
                 double error = fabs((double)rgba[y][x][c] - expected);
@@ -229,7 +242,7 @@ static void picture_in_the_hosts_framebuffer_is_another(void **state)
     for (int frame = 0; frame < 2; frame++) {
         clear_target(s);
         draw(s, renderer);
-        assert_true(measure_error(s) <= 1e-6);
+        assert_true(measure_error(s, s->picture) <= 1e-6);
     }
     tc_renderer_destroy(&renderer);
 }
@@ -269,9 +282,16 @@ static const struct {
     Q(GL_CULL_FACE_MODE, 1),
     Q(GL_PACK_ALIGNMENT, 1),
     Q(GL_PACK_ROW_LENGTH, 1),
+    Q(GL_PACK_SKIP_ROWS, 1),
+    Q(GL_PACK_SKIP_PIXELS, 1),
+    Q(GL_PACK_SWAP_BYTES, 1),
     Q(GL_UNPACK_ALIGNMENT, 1),
     Q(GL_UNPACK_ROW_LENGTH, 1),
     Q(GL_UNPACK_SKIP_PIXELS, 1),
+    Q(GL_UNPACK_SKIP_ROWS, 1),
+    Q(GL_UNPACK_SKIP_IMAGES, 1),
+    Q(GL_UNPACK_IMAGE_HEIGHT, 1),
+    Q(GL_UNPACK_SWAP_BYTES, 1),
 #undef Q
 };
 enum { N_QUERY = sizeof queries / sizeof *queries, N_UNIT = 10, N_IMAGE = 4 };
@@ -284,9 +304,24 @@ static const struct {
     {                                                                                                                  \
         name, #name                                                                                                    \
     }
-    S(GL_BLEND),        S(GL_DEPTH_TEST),        S(GL_SCISSOR_TEST),        S(GL_CULL_FACE),
-    S(GL_STENCIL_TEST), S(GL_COLOR_LOGIC_OP),    S(GL_RASTERIZER_DISCARD),  S(GL_FRAMEBUFFER_SRGB),
-    S(GL_DEPTH_CLAMP),  S(GL_PRIMITIVE_RESTART), S(GL_POLYGON_OFFSET_FILL),
+    S(GL_BLEND),
+    S(GL_DEPTH_TEST),
+    S(GL_SCISSOR_TEST),
+    S(GL_CULL_FACE),
+    S(GL_STENCIL_TEST),
+    S(GL_COLOR_LOGIC_OP),
+    S(GL_RASTERIZER_DISCARD),
+    S(GL_FRAMEBUFFER_SRGB),
+    S(GL_DEPTH_CLAMP),
+    S(GL_PRIMITIVE_RESTART),
+    S(GL_POLYGON_OFFSET_FILL),
+    S(GL_CLIP_DISTANCE0),
+    S(GL_CLIP_DISTANCE6),
+    S(GL_CLIP_DISTANCE7),
+    S(GL_SAMPLE_MASK),
+    S(GL_SAMPLE_COVERAGE),
+    S(GL_SAMPLE_ALPHA_TO_COVERAGE),
+    S(GL_SAMPLE_ALPHA_TO_ONE),
 #undef S
 };
 enum { N_SWITCH = sizeof switches / sizeof *switches };
@@ -356,6 +391,22 @@ static int differences(const state_of_gl *before, const state_of_gl *after)
     return wrong;
 }
 
+/* How pixels lie in memory, other than the default. */
+static const struct {
+    GLenum name;
+    GLint upset, calm;
+} stores[] = {
+    {GL_PACK_ALIGNMENT, 8, 4},     {GL_PACK_ROW_LENGTH, 200, 0},    {GL_PACK_SKIP_ROWS, 1, 0},
+    {GL_PACK_SKIP_PIXELS, 2, 0},   {GL_PACK_SWAP_BYTES, 1, 0},      {GL_UNPACK_ALIGNMENT, 1, 4},
+    {GL_UNPACK_ROW_LENGTH, 71, 0}, {GL_UNPACK_SKIP_ROWS, 2, 0},     {GL_UNPACK_SKIP_PIXELS, 3, 0},
+    {GL_UNPACK_SKIP_IMAGES, 1, 0}, {GL_UNPACK_IMAGE_HEIGHT, 50, 0}, {GL_UNPACK_SWAP_BYTES, 1, 0},
+};
+enum { N_STORE = sizeof stores / sizeof *stores };
+
+static const GLenum odd_switches[] = {GL_CLIP_DISTANCE0,  GL_CLIP_DISTANCE6,           GL_CLIP_DISTANCE7,
+                                      GL_SAMPLE_COVERAGE, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE};
+enum { N_ODD = sizeof odd_switches / sizeof *odd_switches };
+
 /* Sets about everything to other than the default, within what a host may reasonably do. */
 static void upset(GLuint texture, GLuint sampler, GLuint buffer, GLuint vertex_array, GLuint framebuffer)
 {
@@ -383,7 +434,10 @@ static void upset(GLuint texture, GLuint sampler, GLuint buffer, GLuint vertex_a
     gl.ColorMask(GL_TRUE, GL_FALSE, GL_TRUE, GL_FALSE);
     gl.Enable(GL_CULL_FACE);
     gl.CullFace(GL_FRONT_AND_BACK);
-    gl.PixelStorei(GL_PACK_ALIGNMENT, 8);
+    for (int i = 0; i < N_STORE; i++)
+        gl.PixelStorei(stores[i].name, stores[i].upset);
+    for (int i = 0; i < N_ODD; i++)
+        gl.Enable(odd_switches[i]);
 }
 
 static void calm(void)
@@ -400,11 +454,10 @@ static void calm(void)
     gl.BlendEquationSeparate(GL_FUNC_ADD, GL_FUNC_ADD);
     gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     gl.CullFace(GL_BACK);
-    gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl.PixelStorei(GL_PACK_ROW_LENGTH, 0);
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-    gl.PixelStorei(GL_UNPACK_SKIP_PIXELS, 0);
+    for (int i = 0; i < N_STORE; i++)
+        gl.PixelStorei(stores[i].name, stores[i].calm);
+    for (int i = 0; i < N_ODD; i++)
+        gl.Disable(odd_switches[i]);
     gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     gl.BindBuffer(GL_ARRAY_BUFFER, 0);
@@ -471,6 +524,25 @@ static void the_hosts_state_is_changed(void **state)
         printf("    frame %d:\n", frame);
         wrong += differences(&before, &after);
     }
+    for (int frame = 0; frame < 2; frame++) { /* to an image, by each integrator */
+        tc_render_options options = frame ? table_options(s) : s->options;
+        upset(o.texture, o.sampler, o.buffer, o.vertex_array, o.framebuffer);
+        take_state(&before);
+        tc_image *image;
+        tc_error err = {0};
+        if (tc_render(&image, NULL, renderer, s->mesh, s->tf, &s->camera, &options, NULL, &err) != TC_OK)
+            fail_msg("%s", err.text);
+        take_state(&after);
+        printf("    image %d:\n", frame);
+        wrong += differences(&before, &after);
+        tc_compare_result compared;
+        assert_int_equal(tc_image_compare(&compared, image, frame ? s->table : s->picture, NULL), TC_OK);
+        if (!(compared.max_abs <= 1e-6)) {
+            printf("    image %d differs by %.1e\n", frame, compared.max_abs);
+            wrong++;
+        }
+        tc_image_destroy(&image);
+    }
     upset(o.texture, o.sampler, o.buffer, o.vertex_array, o.framebuffer);
     take_state(&before);
     tc_renderer_destroy(&renderer);
@@ -496,11 +568,15 @@ static void set_trap(int trap, const objects *o)
         gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, o->buffer);
         break;
     case 3:
-        gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 7);
-        gl.PixelStorei(GL_UNPACK_SKIP_PIXELS, 3);
+        for (int i = 0; i < N_STORE; i++)
+            gl.PixelStorei(stores[i].name, stores[i].upset);
         break;
     case 4:
         gl.Enable(GL_RASTERIZER_DISCARD);
+        break;
+    case 5:
+        gl.Enable((GLenum)-1); /* an error that the host has not asked for yet */
+        gl.BindTexture((GLenum)-1, 0);
         break;
     default:
         gl.Enable(GL_COLOR_LOGIC_OP);
@@ -510,25 +586,29 @@ static void set_trap(int trap, const objects *o)
 
 static void the_hosts_state_changes_the_picture(void **state)
 {
-    static const char *const traps[] = {"about everything", "lines for polygons", "a pixel buffer",
-                                        "a row length",     "no rasterization",   "a logic operation"};
+    static const char *const traps[] = {"about everything",      "lines for polygons", "a pixel buffer",
+                                        "how pixels are stored", "no rasterization",   "a pending error",
+                                        "a logic operation"};
     scene *s = *state;
     enter(s);
     objects o = make_objects();
     int wrong = 0;
-    for (int trap = 0; trap < 6; trap++) {
+    for (int trial = 0; trial < 2 * 7; trial++) { /* by the default integrator, then by the table */
+        const int trap = trial % 7;
+        const bool table = trial >= 7;
+        const tc_render_options options = table ? table_options(s) : s->options;
         calm();
         clear_target(s);
         tc_renderer *renderer = host_renderer();
         set_trap(trap, &o);
         tc_error err = {0};
         tc_status status =
-            tc_render_gl(s->framebuffer, NULL, renderer, s->mesh, s->tf, &s->camera, &s->options, NULL, &err);
+            tc_render_gl(s->framebuffer, NULL, renderer, s->mesh, s->tf, &s->camera, &options, NULL, &err);
         calm();
         while (gl.GetError() != GL_NO_ERROR)
             ;
-        double error = measure_error(s);
-        printf("    %s: error %.1e %s\n", traps[trap], error, err.text);
+        double error = measure_error(s, table ? s->table : s->picture);
+        printf("    %s%s: error %.1e %s\n", traps[trap], table ? ", table" : "", error, err.text);
         fflush(stdout);
         wrong += status != TC_OK || !(error <= 1e-6);
         tc_renderer_destroy(&renderer);

@@ -1,0 +1,173 @@
+/* test_suite_renderers.c: renderers beside each other, and options that no renderer takes. */
+#include "suite.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIZE = 48 };
+
+typedef struct scene {
+    tc_mesh *mesh;
+    tc_transfer *tf;
+    tc_camera camera;
+    tc_render_options options;
+} scene;
+
+static int set_up(void **state)
+{
+    scene *s = calloc(1, sizeof *s);
+    assert_non_null(s);
+    *state = s;
+    s->mesh = suite_synth("heatsink", 3000, TC_REENTRY_PEEL);
+    s->tf = suite_benchmark(s->mesh);
+    s->camera = suite_camera(s->mesh, 0.4, 0.5, 1, false);
+    s->options = suite_options(SIZE, SIZE);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    scene *s = *state;
+    tc_transfer_destroy(&s->tf);
+    tc_mesh_destroy(&s->mesh);
+    free(s);
+    return 0;
+}
+
+static tc_renderer *make_renderer(void)
+{
+    const tc_renderer_options options = {.gl = suite_is_gpu() ? suite_backend() : NULL,
+                                         .driver = suite_is_gpu() ? "pingpong" : "reference"};
+    tc_renderer *renderer;
+    tc_error err = {0};
+    if (tc_renderer_create(&renderer, &options, NULL, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    return renderer;
+}
+
+static tc_image *render(const scene *s, tc_renderer *renderer)
+{
+    tc_image *image;
+    tc_error err = {0};
+    if (tc_render(&image, NULL, renderer, s->mesh, s->tf, &s->camera, &s->options, NULL, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    return image;
+}
+
+static void destroying_a_renderer_breaks_another(void **state)
+{
+    const scene *s = *state;
+    tc_image *before = suite_render(NULL, s->mesh, s->tf, &s->camera, &s->options);
+    tc_renderer *a = make_renderer(), *b = make_renderer();
+    tc_image *in_a = render(s, a), *in_b = render(s, b);
+    assert_true(suite_difference(before, in_a) <= 0 && suite_difference(before, in_b) <= 0);
+    tc_image_destroy(&in_a);
+    tc_image_destroy(&in_b);
+    tc_renderer_destroy(&a); /* the older one */
+    in_b = render(s, b);
+    assert_true(suite_difference(before, in_b) <= 0);
+    tc_image_destroy(&in_b);
+    a = make_renderer();
+    tc_renderer_destroy(&a); /* a newer one that never rendered */
+    in_b = render(s, b);
+    assert_true(suite_difference(before, in_b) <= 0);
+    tc_image_destroy(&in_b);
+    tc_renderer_destroy(&b);
+    tc_image *after = suite_render(NULL, s->mesh, s->tf, &s->camera, &s->options); /* the suite's own */
+    assert_true(suite_difference(before, after) <= 0);
+    tc_image_destroy(&after);
+    tc_image_destroy(&before);
+}
+
+static void asking_for_the_back_ends_breaks_a_renderer(void **state)
+{
+    const scene *s = *state;
+    tc_image *before = suite_render(NULL, s->mesh, s->tf, &s->camera, &s->options);
+    tc_backend_info info[16];
+    size_t n = 0;
+    bool found = false;
+    assert_int_equal(tc_backends(info, 16, &n, NULL), TC_OK);
+    for (size_t i = 0; i < n; i++)
+        found = found || (info[i].works && strcmp(info[i].name, suite_backend()) == 0);
+    assert_true(found);
+    tc_image *after = suite_render(NULL, s->mesh, s->tf, &s->camera, &s->options);
+    assert_true(suite_difference(before, after) <= 0);
+    tc_image_destroy(&after);
+    tc_image_destroy(&before);
+}
+
+/* Renders with options that are wrong: TC_E_ARG, no picture, and a sentence with each word in it. */
+static void expect_refusal(const scene *s, tc_renderer *renderer, const tc_render_options *options,
+                           const char *const words[3])
+{
+    tc_image *image = NULL;
+    tc_error err = {0};
+    assert_int_equal(tc_render(&image, NULL, renderer, s->mesh, s->tf, &s->camera, options, NULL, &err), TC_E_ARG);
+    assert_null(image);
+    for (int i = 0; i < 3; i++)
+        if (!strstr(err.text, words[i]))
+            fail_msg("no word of '%s': %s", words[i], err.text);
+}
+
+static void an_unknown_integrator_is_taken(void **state)
+{
+    const scene *s = *state;
+    tc_renderer *renderer = make_renderer();
+    tc_render_options options = s->options;
+    options.integrator = (tc_integrator)3;
+    expect_refusal(s, renderer, &options, (const char *const[]){"integrator 3", "1 (table)", "2 (integral)"});
+    options.integrator = (tc_integrator)-1;
+    expect_refusal(s, renderer, &options, (const char *const[]){"integrator -1", "0 (auto)", "2 (integral)"});
+    tc_renderer_destroy(&renderer);
+}
+
+static void an_unknown_table_format_is_taken(void **state)
+{
+    const scene *s = *state;
+    tc_renderer *renderer = make_renderer();
+    tc_render_options options = s->options;
+    options.integrator = TC_INTEGRATOR_TABLE;
+    options.table_format = (tc_table_format)24;
+    expect_refusal(s, renderer, &options, (const char *const[]){"table format 24", "16", "32"});
+    options.table_format = (tc_table_format)-8;
+    expect_refusal(s, renderer, &options, (const char *const[]){"table format -8", "0 (auto)", "16"});
+    tc_renderer_destroy(&renderer);
+}
+
+static void a_z_update_interval_out_of_range_is_taken(void **state)
+{
+    static const int wrong[] = {-2, -2147483647 - 1, 65537, 2147483647}, right[] = {-1, 0, 1, 3, 65536};
+    const scene *s = *state;
+    tc_renderer *renderer = make_renderer();
+    tc_render_options options = s->options;
+    for (int i = 0; i < 4; i++) {
+        options.z_update_every = wrong[i];
+        expect_refusal(s, renderer, &options, (const char *const[]){"z-updates", "65536", "-1 (never)"});
+    }
+    for (int i = 0; i < 5; i++) {
+        tc_image *image = NULL;
+        tc_render_stats stats;
+        options.z_update_every = right[i];
+        assert_int_equal(tc_render(&image, &stats, renderer, s->mesh, s->tf, &s->camera, &options, NULL, NULL), TC_OK);
+        if (suite_is_gpu() && right[i] != 0)
+            assert_int_equal(stats.z_update_every, right[i] < 0 ? -1 : (right[i] + 1) / 2 * 2);
+        tc_image_destroy(&image);
+    }
+    tc_renderer_destroy(&renderer);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(destroying_a_renderer_breaks_another),
+        cmocka_unit_test(asking_for_the_back_ends_breaks_a_renderer),
+        cmocka_unit_test(an_unknown_integrator_is_taken),
+        cmocka_unit_test(an_unknown_table_format_is_taken),
+        cmocka_unit_test(a_z_update_interval_out_of_range_is_taken),
+    };
+    if (!suite_begin(argc, argv))
+        return SUITE_SKIPPED;
+    int failed = cmocka_run_group_tests(tests, set_up, tear_down);
+    suite_end();
+    return failed;
+}
