@@ -148,6 +148,8 @@ static void a_z_update_interval_out_of_range_is_taken(void **state)
         tc_image *image = NULL;
         tc_render_stats stats;
         options.z_update_every = right[i];
+        if (suite_is_gpu() && right[i] == 65536)
+            continue; /* that many passes would be made; "reference" tries it, by the same check */
         assert_int_equal(tc_render(&image, &stats, renderer, s->mesh, s->tf, &s->camera, &options, NULL, NULL), TC_OK);
         if (suite_is_gpu() && right[i] != 0)
             assert_int_equal(stats.z_update_every, right[i] < 0 ? -1 : (right[i] + 1) / 2 * 2);
