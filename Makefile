@@ -60,7 +60,7 @@ test: configure
 bench: all
 	@$(call packages,$(BENCH_PACKAGES))
 	cmake --build $(BUILD) -j $(JOBS) --target bench_table
-	$$(find $(BUILD)/tests/bench -name bench_table -type f)
+	$(BUILD)/bench_table
 	/usr/bin/python3 tests/bench/bench.py $(BENCH_ARGS)
 
 docs: all
