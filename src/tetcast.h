@@ -239,6 +239,8 @@ typedef struct tc_camera {
     double view_angle;     /* degrees */
     double parallel_scale; /* half the view's height in the mesh's unit */
     bool parallel;
+    double clip_near, clip_far; /* only what lies between these distances before the eye's plane, along the view, is seen,
+                                   in the mesh's unit; both 0: all that is before the eye */
 } tc_camera;
 
 /* Whole box in view from direction (from focal point to eye), as vtkRenderer::ResetCamera does.
@@ -284,6 +286,10 @@ TC_API tc_status tc_image_compare(tc_compare_result *out, const tc_image *a, con
 typedef enum tc_integrator { TC_INTEGRATOR_AUTO = 0, TC_INTEGRATOR_TABLE = 1, TC_INTEGRATOR_INTEGRAL = 2 } tc_integrator;
 typedef enum tc_table_format { TC_TABLE_AUTO = 0, TC_TABLE_8 = 8, TC_TABLE_16F = 16, TC_TABLE_32F = 32 } tc_table_format;
 
+/* How a ray finds its way out of a cell. PLANES is the paper's own arithmetic (Weiler et al. 2003, eq. 1 and 2, in float):
+ * it loses rays, and is here to be compared with. */
+typedef enum tc_stepper { TC_STEPPER_SIGNS = 0, TC_STEPPER_PLANES = 1 } tc_stepper;
+
 typedef struct tc_renderer tc_renderer;
 
 /* Where the pictures are made. */
@@ -318,6 +324,10 @@ typedef struct tc_render_options {
     int steps_per_pass;           /* K; 0: auto */
     int z_update_every;           /* passes between z-locks, 1 … 65536, rounded up to even; 0: auto; -1: never lock */
     bool count;                   /* count steps, fragments per pass (costs time) */
+    tc_stepper stepper;
+    bool audit;                   /* the walk checks itself (costs time): tc_render_stats.audit_broken, tc_render_audit */
+    bool has_nan_color;           /* cells with a value that is not finite show nan_color; otherwise they are transparent */
+    double nan_color[4];          /* r, g, b, attenuation per unit distance */
 } tc_render_options;
 
 TC_API void tc_render_defaults(tc_render_options *options);
@@ -330,6 +340,7 @@ typedef struct tc_render_stats {
     double gpu_bytes_mesh, gpu_bytes_other, gpu_bytes_table, gpu_bytes_state; /* cells + vertices; boundary; tables; state */
     int steps_per_pass, z_update_every, passes, z_updates, layers; /* layers: entries peeled, 1 when convex */
     int64_t rays, rays_lost, steps, steps_max;
+    int64_t audit_broken;   /* visited cells in which other than two faces held the ray */
     size_t n_fragments_per_pass;
     const int64_t *fragments_per_pass; /* belongs to the renderer, until its next call */
 } tc_render_stats;
@@ -352,6 +363,26 @@ TC_API tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *
 TC_API tc_status tc_render_gl(unsigned framebuffer, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
                               const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
                               const tc_log *log, tc_error *err);
+
+/* What one ray of the last picture did (tc_render with options.audit; not by the driver "reference"). */
+typedef struct tc_audit_ray {
+    float length, length_real; /* sums of all its segments and of those in real cells, in the mesh's unit */
+    uint32_t cells;            /* cells visited */
+    uint32_t hash;             /* sum of tc_audit_hash(index) over them, whatever their order; by the prepared mesh's order */
+    uint32_t broken;           /* of them, those in which other than two faces held it; not with TC_STEPPER_PLANES */
+} tc_audit_ray;
+
+/* murmur3's finalizer (Appleby) of the cell's index + 1. */
+static inline uint32_t tc_audit_hash(uint32_t cell)
+{
+    uint32_t h = cell + 1;
+    h = (h ^ (h >> 16)) * 0x85ebca6bu;
+    h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+    return h ^ (h >> 16);
+}
+
+/* out [height][width], row 0 at the top. Errors: TC_E_ARG (the last picture was not audited), TC_E_GL. */
+TC_API tc_status tc_render_audit(tc_audit_ray *out, tc_renderer *renderer, tc_error *err);
 
 typedef struct tc_verify_result {
     size_t pixels, ill_posed;
