@@ -3,12 +3,14 @@
  * number. */
 #include "gpu/program.h"
 
+#include "core/file.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { LINES_PER_FILE = 10000, MAX_FILES = 64, LOG_BYTES = 4096 };
 
@@ -59,6 +61,32 @@ static int resolve(const assembly *a, const char *name, size_t n)
     return file_index(name, n);
 }
 
+/* The file of that name in the folder TETCAST_SHADERS names, 0-terminated, for the caller to free; NULL where the
+ * embedded one is to be taken. For trying out changes without a build, and for tests that break a shader on purpose. */
+static tc_status read_override(char **out, const char *name, tc_error *err)
+{
+    *out = NULL;
+    const char *folder = getenv("TETCAST_SHADERS");
+    char path[4096];
+    if (!folder || !*folder || snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path ||
+        access(path, F_OK) != 0)
+        return TC_OK;
+    void *data;
+    size_t bytes;
+    tc_status status = tc_file_read(&data, &bytes, path, err);
+    if (status != TC_OK)
+        return status;
+    *out = tc_realloc(data, bytes + 1, 1);
+    if (!*out) {
+        free(data);
+        return tc_fail_memory(err, "a shader's text", bytes + 1, 1);
+    }
+    (*out)[bytes] = 0;
+    return TC_OK;
+}
+
+static tc_status add_text(assembly *a, int index, const char *p, int depth);
+
 static tc_status add_file(assembly *a, int index, int depth)
 {
     if (a->included[index])
@@ -66,8 +94,18 @@ static tc_status add_file(assembly *a, int index, int depth)
     a->included[index] = true;
     if (depth > 8)
         return tc_fail(a->err, TC_E_GL, "shader %s: includes nest too deep", tc_shader_files[index].name);
+    char *override;
+    tc_status status = read_override(&override, tc_shader_files[index].name, a->err);
+    if (status == TC_OK)
+        status = add_text(a, index, override ? override : tc_shader_files[index].text, depth);
+    free(override);
+    return status;
+}
+
+/* Adds the text p of file `index`, and what it includes. */
+static tc_status add_text(assembly *a, int index, const char *p, int depth)
+{
     char line_directive[64];
-    const char *p = tc_shader_files[index].text;
     int line = 1;
     snprintf(line_directive, sizeof line_directive, "#line %d\n", index * LINES_PER_FILE + line);
     tc_status status = text_add(&a->out, line_directive, strlen(line_directive), a->err);
