@@ -19,6 +19,39 @@ layout(location = 0) out ivec4 out_walk;
 layout(location = 1) out vec4 out_color;
 layout(location = 2) out vec2 out_at;
 
+// One step, and its share of the picture.
+void march_step(inout Walk w, Ray ray, inout Integral integral)
+{
+    Segment segment = walk_step(w, ray);
+#ifdef EYE_CLIP
+    if (segment.z0 < 0.0) {
+        if (segment.z1 > 0.0) {
+            float f = segment.z0 / (segment.z0 - segment.z1);
+            segment.s0 = mix(segment.s0, segment.s1, f);
+            segment.z0 = 0.0;
+            integral_enter(integral, segment.s0);
+        } else {
+            segment.z0 = segment.z1; // behind the eye
+        }
+    }
+#endif
+#ifdef CELL_DATA
+    segment.s0 = segment.s1 = segment.real ? mesh_cell_value(segment.cell) : 0.0;
+    integral_enter(integral, segment.s0);
+#endif
+#ifdef NONFINITE
+    // A cell with a value that is not finite contributes nothing: its entry and exit face together hold all its vertices.
+    if (isnan(segment.s0) || isnan(segment.s1)) {
+        segment.real = false;
+        segment.s1 = isnan(segment.s1) ? 0.0 : segment.s1;
+        integral_enter(integral, segment.s1);
+    }
+#endif
+    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
+    if (integral_transmittance(integral) <= transmittance_stop)
+        w.cell = -2;
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -37,41 +70,17 @@ void main()
         w.s = at.y;
         walk_look_ahead(w);
         Integral integral = integral_begin(color, w.s);
-        for (int k = 0; k < steps_per_pass; k++) {
-            Segment segment = walk_step(w, ray);
+        int k = 0;
+        do {
+            walk_exact(w, ray);
+            do {
+                march_step(w, ray, integral);
+                k++;
+            } while (w.cell >= 0 && k < steps_per_pass && walk_fast(w, ray));
+        } while (w.cell >= 0 && k < steps_per_pass);
 #ifdef COUNT
-            steps++;
+        steps += uint(k);
 #endif
-#ifdef EYE_CLIP
-            if (segment.z0 < 0.0) {
-                if (segment.z1 > 0.0) {
-                    float f = segment.z0 / (segment.z0 - segment.z1);
-                    segment.s0 = mix(segment.s0, segment.s1, f);
-                    segment.z0 = 0.0;
-                    integral_enter(integral, segment.s0);
-                } else {
-                    segment.z0 = segment.z1; // behind the eye
-                }
-            }
-#endif
-#ifdef CELL_DATA
-            segment.s0 = segment.s1 = segment.real ? mesh_cell_value(segment.cell) : 0.0;
-            integral_enter(integral, segment.s0);
-#endif
-        #ifdef NONFINITE
-    // A cell with a value that is not finite contributes nothing: its entry and exit face together hold all its vertices.
-    if (isnan(segment.s0) || isnan(segment.s1)) {
-        segment.real = false;
-        segment.s1 = isnan(segment.s1) ? 0.0 : segment.s1;
-        integral_enter(integral, segment.s1);
-    }
-#endif
-    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
-            if (integral_transmittance(integral) <= transmittance_stop)
-                w.cell = -2;
-            if (w.cell < 0)
-                break;
-        }
         color = integral_end(integral);
         walk = ivec4(w.cell, w.id);
         at = vec2(w.z, w.s);

@@ -4,6 +4,12 @@
 // by intersection points (after Aman et al. 2022). The ray is the origin of its own frame (ray.glsl). A face holds the
 // ray iff the crosses of its projected vertices, taken around, agree in sign. Signs are exact and ties broken consistently
 // (signs.glsl), so a cell has 0 or 2 faces that hold the ray, and a walk from a boundary face ends at a boundary face.
+//
+// Use:  walk_face, then until the ray is finished
+//           walk_exact, then walk_step, and after it walk_step again for as long as walk_fast says yes.
+// Exact signs cost doubles, which are seldom needed; a group of lanes that runs in step pays for them whenever they
+// stand in its loop. So they stand outside of it: walk_fast looks at the next cell in float, and gives up where that is
+// in doubt.
 
 #include "ray.glsl"
 #include "signs.glsl"
@@ -18,6 +24,8 @@ struct Walk {
     float z, s;    // depth and scalar where the ray meets the face
     int ahead;     // the cell's fourth vertex and its record, fetched before they are needed: memory is slow
     vec4 ahead_vertex;
+    vec4 d;        // the fourth vertex, projected
+    vec3 cross_d;  // crosses (d,a), (d,b), (d,c)
 };
 
 struct Segment {
@@ -73,16 +81,32 @@ bool walk_face(out Walk w, Ray ray, int cell, ivec3 id, out int facing)
     return w.weight.y > 0.0 && w.weight.z > 0.0;
 }
 
-// One cell step: from the face into w.cell and out at the face that holds the ray there. walk_look_ahead must have been
-// called for the first one.
+// Looks at the cell ahead, exactly.
+void walk_exact(inout Walk w, Ray ray)
+{
+    w.d = vec4(ray_project(ray, w.ahead_vertex.xyz), w.ahead_vertex.w);
+    w.cross_d = vec3(sign_cross(w.d.xy, w.a.xy, w.ahead, w.id.x), sign_cross(w.d.xy, w.b.xy, w.ahead, w.id.y),
+                     sign_cross(w.d.xy, w.c.xy, w.ahead, w.id.z));
+}
+
+// The same in float; false where that is not enough, and walk_exact must be called.
+bool walk_fast(inout Walk w, Ray ray)
+{
+    bool sure = true;
+    w.d = vec4(ray_project(ray, w.ahead_vertex.xyz), w.ahead_vertex.w);
+    w.cross_d.x = sign_cross_fast(w.d.xy, w.a.xy, sure);
+    w.cross_d.y = sign_cross_fast(w.d.xy, w.b.xy, sure);
+    w.cross_d.z = sign_cross_fast(w.d.xy, w.c.xy, sure);
+    return sure;
+}
+
+// One cell step: from the face into w.cell and out at the face that holds the ray there.
 Segment walk_step(inout Walk w, Ray ray)
 {
     int cell = w.cell;
     int id = w.ahead;
-    vec4 d = vec4(ray_project(ray, w.ahead_vertex.xyz), w.ahead_vertex.w);
-    float da = sign_cross(d.xy, w.a.xy, id, w.id.x);
-    float db = sign_cross(d.xy, w.b.xy, id, w.id.y);
-    float dc = sign_cross(d.xy, w.c.xy, id, w.id.z);
+    vec4 d = w.d;
+    float da = w.cross_d.x, db = w.cross_d.y, dc = w.cross_d.z;
 
     // The exit face keeps two entry vertices and d, which takes the dropped one's place: (a,b,d), (a,d,c), else (d,b,c).
     // Two signs choose. Selections, not branches: lanes of one group differ here.
