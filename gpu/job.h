@@ -33,7 +33,7 @@ typedef struct tc_job {
     double mean[4];     /* running integrals: mean slope */
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
-    bool count;
+    bool count, audit; /* audit counts as well */
     bool software; /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
 } tc_job;
 

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { AHEAD = 2, UNIT_NODES = 2, UNIT_WALK = 4, UNIT_COLOR, UNIT_AT, UNIT_STEPS, UNIT_TF };
+enum { AHEAD = 2, UNIT_NODES = 2, UNIT_WALK = 4, UNIT_COLOR, UNIT_AT, UNIT_STEPS, UNIT_TF, UNIT_AUDIT };
 static const GLuint64 WAIT_NS = 1000000000ull; /* for a fence, at a time */
 enum { WAITS = 3600 };                         /* a pass over a large picture on a slow machine takes minutes */
 
@@ -101,6 +101,8 @@ static void clear_state(const tc_job *job)
     gl->ClearBufferfv(GL_COLOR, 1, empty);
     if (job->count)
         gl->ClearBufferuiv(GL_COLOR, 3, none);
+    if (job->audit)
+        gl->ClearBufferuiv(GL_COLOR, 4, none);
 }
 
 /* Issues a z-update pass with its query. */
@@ -165,6 +167,8 @@ static tc_status issue_pass(loop *l, int from)
         return TC_OK;
     }
     tc_pass_texture(gl, l->march, "state_steps", UNIT_STEPS, GL_TEXTURE_2D, read->steps);
+    if (job->audit)
+        tc_pass_texture(gl, l->march, "state_audit", UNIT_AUDIT, GL_TEXTURE_2D, read->audit);
     if (pass >= l->pass_capacity) {
         size_t capacity = l->pass_capacity ? 2 * l->pass_capacity : 256;
         GLuint *grown = tc_realloc(l->pass_query, capacity, sizeof *grown);

@@ -3,9 +3,11 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "gpu/audit.h"
 #include "gpu/pass.h"
 #include "gpu/pingpong.h"
 #include "gpu/transfer_gpu.h"
+#include "gpu/watch.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -122,14 +124,14 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, tc_render_
 static tc_status ensure_state(tc_gpu_renderer *r, const tc_render_options *options, bool peeling, tc_error *err)
 {
     tc_state *s = &r->state;
-    if (s->width == options->width && s->height == options->height && s->counting == options->count &&
-        s->peeling == peeling)
+    if (s->width == options->width && s->height == options->height && s->peeling == peeling &&
+        s->counting == (options->count || options->audit) && s->auditing == options->audit)
         return TC_OK;
     tc_state_finish(s, &r->context->gl);
     r->drawn[0] = r->drawn[1] = 0; /* a new result holds anything */
     r->drawn[2] = options->width;
     r->drawn[3] = options->height;
-    return tc_state_create(s, &r->context->gl, options->width, options->height, options->count, peeling, err);
+    return tc_state_create(s, &r->context->gl, options, peeling, err);
 }
 
 /* Steps per pass and z-update interval where the caller left them to us. */
@@ -142,6 +144,27 @@ static void choose_passes(tc_job *job, const tc_render_options *options)
     if (every == 0)
         every = job->steps_per_pass >= 8 ? 2 : AUTO_Z_SMALL;
     job->z_update_every = every < 0 ? -1 : (every + 1) / 2 * 2;
+}
+
+tc_status tc_gpu_audit(tc_audit_ray *out, tc_gpu_renderer *r, tc_error *err)
+{
+    tc_status status = tc_context_make_current(r->context, err);
+    return status == TC_OK ? tc_audit_read(out, &r->state, &r->context->gl, r->scale, r->drawn, err) : status;
+}
+
+/* Sums up the audit of a picture. */
+static tc_status count_broken(tc_render_stats *stats, tc_gpu_renderer *r, tc_error *err)
+{
+    size_t n = (size_t)r->state.width * (size_t)r->state.height;
+    tc_audit_ray *ray = tc_alloc(n, sizeof *ray);
+    if (!ray)
+        return tc_fail_memory(err, "the audit", n, sizeof *ray);
+    tc_status status = tc_audit_read(ray, &r->state, &r->context->gl, r->scale, r->drawn, err);
+    stats->audit_broken = 0;
+    for (size_t i = 0; i < n && status == TC_OK; i++)
+        stats->audit_broken += ray[i].broken;
+    free(ray);
+    return status;
 }
 
 static void count_steps(tc_render_stats *stats, tc_gpu_renderer *r)
@@ -265,7 +288,8 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.peel = peel;
     job.nonfinite = mesh->report.nonfinite_scalars > 0;
     job.transmittance_stop = options->opacity_stop >= 1 ? -1 : 1 - options->opacity_stop;
-    job.count = options->count;
+    job.count = options->count || options->audit;
+    job.audit = options->audit;
     job.software = r->context->software;
     choose_passes(&job, options);
 
@@ -274,7 +298,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.hit_array = r->vertex_array[1];
     job.hit_buffer = r->hit_buffer;
 
-    if (options->count) { /* steps are read as a whole */
+    if (job.count) { /* steps are read as a whole */
         const GLuint none[4] = {0, 0, 0, 0};
         gl->BindFramebuffer(GL_FRAMEBUFFER, r->state.set[0].framebuffer);
         gl->ClearBufferuiv(GL_COLOR, 3, none);
@@ -299,9 +323,10 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     stats->ms_frame = tc_now_ms() - start;
     gl->Disable(GL_SCISSOR_TEST);
     stats->ms_compile = tc_program_cache_ms(r->programs) - compile_before;
+    tc_gl_watch_say(gl, frame->log);
     if (status == TC_OK)
         fill_stats(stats, r, &job, &result);
-    if (status == TC_OK && options->count) {
+    if (status == TC_OK && job.count) {
         free(r->fragments);
         r->fragments = result.fragments;
         stats->fragments_per_pass = r->fragments;
@@ -310,6 +335,8 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     } else {
         free(result.fragments);
     }
+    if (status == TC_OK && job.audit)
+        status = count_broken(stats, r, err);
     if (status == TC_OK && result.rays_lost > 0)
         status =
             tc_fail(err, TC_E_LOST, "%lld of %lld rays were lost; the picture is not to be trusted, please report it",

@@ -27,7 +27,7 @@ static GLuint depth_buffer(const tc_state *s, const tc_gl *gl)
 static tc_status framebuffer(GLuint *out, const tc_state *s, const tc_gl *gl, const GLuint *color, int n, GLuint depth,
                              tc_error *err)
 {
-    GLenum buffers[4];
+    GLenum buffers[5];
     gl->GenFramebuffers(1, out);
     gl->BindFramebuffer(GL_FRAMEBUFFER, *out);
     for (int i = 0; i < n; i++) {
@@ -46,9 +46,10 @@ static tc_status framebuffer(GLuint *out, const tc_state *s, const tc_gl *gl, co
     return TC_OK;
 }
 
-tc_status tc_state_create(tc_state *s, const tc_gl *gl, int width, int height, bool counting, bool peeling,
-                          tc_error *err)
+tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options *options, bool peeling, tc_error *err)
 {
+    int width = options->width, height = options->height;
+    bool counting = options->count || options->audit;
     memset(s, 0, sizeof *s);
     if (width > gl->max_texture_size || height > gl->max_texture_size)
         return tc_fail(err, TC_E_ARG, "an image of %dx%d exceeds what %s can render (%d); use a smaller --size", width,
@@ -56,6 +57,7 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, int width, int height, b
     s->width = width;
     s->height = height;
     s->counting = counting;
+    s->auditing = options->audit;
     s->peeling = peeling;
     size_t pixels = (size_t)width * (size_t)height;
     s->lock = depth_buffer(s, gl);
@@ -69,9 +71,12 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, int width, int height, b
         set->at = screen_texture(s, gl, GL_RG32F, GL_RG, GL_FLOAT);
         if (counting)
             set->steps = screen_texture(s, gl, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
-        GLuint textures[4] = {set->walk, set->color, set->at, set->steps};
-        status = framebuffer(&set->framebuffer, s, gl, textures, counting ? 4 : 3, s->lock, err);
-        s->bytes += pixels * (counting ? 44 : 40);
+        if (s->auditing)
+            set->audit = screen_texture(s, gl, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+        GLuint textures[5] = {set->walk, set->color, set->at, set->steps, set->audit};
+        int n = s->auditing ? 5 : counting ? 4 : 3;
+        status = framebuffer(&set->framebuffer, s, gl, textures, n, s->lock, err);
+        s->bytes += pixels * (40 + (counting ? 4 : 0) + (s->auditing ? 16 : 0));
     }
     for (int i = 0; i < (peeling ? 2 : 1) && status == TC_OK; i++) {
         if (peeling) {
@@ -98,8 +103,9 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, int width, int height, b
 void tc_state_finish(tc_state *s, const tc_gl *gl)
 {
     for (int i = 0; i < 2; i++) {
-        GLuint textures[5] = {s->set[i].walk, s->set[i].color, s->set[i].at, s->set[i].steps, s->key[i]};
-        gl->DeleteTextures(5, textures); /* 0 is ignored */
+        GLuint textures[6] = {s->set[i].walk,  s->set[i].color, s->set[i].at,
+                              s->set[i].steps, s->set[i].audit, s->key[i]};
+        gl->DeleteTextures(6, textures); /* 0 is ignored */
         gl->DeleteFramebuffers(1, &s->set[i].framebuffer);
         gl->DeleteFramebuffers(1, &s->hit_framebuffer[i]);
     }

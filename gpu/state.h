@@ -10,12 +10,13 @@ typedef struct tc_state_set {
     GLuint color;       /* RGBA32F: colour, optical depth or transmittance */
     GLuint at;          /* RG32F: depth, scalar */
     GLuint steps;       /* R32UI, only when counting */
+    GLuint audit;       /* RGBA32UI: length and length in real cells (float bits), hash, broken; only when auditing */
     GLuint framebuffer; /* all of them, and the lock */
 } tc_state_set;
 
 typedef struct tc_state {
     int width, height;
-    bool counting, peeling;
+    bool counting, auditing, peeling;
     tc_state_set set[2];
     GLuint lock;                       /* depth renderbuffer: near where the ray is finished */
     GLuint lock_framebuffer;           /* the lock alone */
@@ -26,9 +27,8 @@ typedef struct tc_state {
     size_t bytes;
 } tc_state;
 
-/* Errors: TC_E_ARG when the image exceeds the GL's limit, TC_E_MEMORY, TC_E_GL. */
-tc_status tc_state_create(tc_state *out, const tc_gl *gl, int width, int height, bool counting, bool peeling,
-                          tc_error *err);
+/* Of options: width, height, count, audit (which counts as well). Errors: TC_E_ARG when the image exceeds the GL's limit, TC_E_MEMORY, TC_E_GL. */
+tc_status tc_state_create(tc_state *out, const tc_gl *gl, const tc_render_options *options, bool peeling, tc_error *err);
 void tc_state_finish(tc_state *state, const tc_gl *gl);
 
 #endif

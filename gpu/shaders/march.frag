@@ -11,6 +11,31 @@ uniform sampler2D state_at;    // depth, scalar
 uniform usampler2D state_steps;
 layout(location = 3) out uint out_steps;
 #endif
+#ifdef AUDIT
+uniform usampler2D state_audit; // length, length in real cells (bits), hash of the cells, broken cells
+layout(location = 4) out uvec4 out_audit;
+
+struct Audit {
+    float length, real;
+    uint hash, broken;
+};
+
+uint audit_hash(uint cell) // tc_audit_hash
+{
+    uint h = cell + 1u;
+    h = (h ^ (h >> 16)) * 0x85ebca6bu;
+    h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+    return h ^ (h >> 16);
+}
+
+void audit_add(inout Audit audit, Segment segment)
+{
+    audit.length += segment.z1 - segment.z0;
+    audit.real += segment.real ? segment.z1 - segment.z0 : 0.0;
+    audit.hash += audit_hash(uint(segment.cell / MESH_RECORD));
+}
+Audit audit;
+#endif
 uniform int steps_per_pass;
 uniform float length_unit;         // half diagonals → unit distances
 uniform float transmittance_stop;  // a ray ends at or below
@@ -22,6 +47,9 @@ layout(location = 2) out vec2 out_at;
 // One step, and its share of the picture.
 void march_step(inout Walk w, Ray ray, inout Integral integral)
 {
+#ifdef AUDIT
+    audit.broken += walk_holding_faces(w) == 2u ? 0u : 1u;
+#endif
     Segment segment = walk_step(w, ray);
 #ifdef EYE_CLIP
     if (segment.z0 < 0.0) {
@@ -34,6 +62,9 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
             segment.z0 = segment.z1; // behind the eye
         }
     }
+#endif
+#ifdef AUDIT
+    audit_add(audit, segment);
 #endif
 #ifdef CELL_DATA
     segment.s0 = segment.s1 = segment.real ? mesh_cell_value(segment.cell) : 0.0;
@@ -60,6 +91,10 @@ void main()
     vec2 at = texelFetch(state_at, pixel, 0).xy;
 #ifdef COUNT
     uint steps = texelFetch(state_steps, pixel, 0).x;
+#endif
+#ifdef AUDIT
+    uvec4 before = texelFetch(state_audit, pixel, 0);
+    audit = Audit(uintBitsToFloat(before.x), uintBitsToFloat(before.y), before.z, before.w);
 #endif
     if (walk.x >= 0) {
         Ray ray = ray_of_pixel(gl_FragCoord.xy);
@@ -90,5 +125,8 @@ void main()
     out_at = at;
 #ifdef COUNT
     out_steps = steps;
+#endif
+#ifdef AUDIT
+    out_audit = uvec4(floatBitsToUint(audit.length), floatBitsToUint(audit.real), audit.hash, audit.broken);
 #endif
 }

@@ -100,6 +100,22 @@ bool walk_fast(inout Walk w, Ray ray)
     return sure;
 }
 
+#ifdef AUDIT
+// How many of the coming cell's faces hold the ray: 2, by docs/stability.md. Asked afresh, of all four.
+uint walk_holding_faces(Walk w)
+{
+    float ab = sign_cross(w.a.xy, w.b.xy, w.id.x, w.id.y), bc = sign_cross(w.b.xy, w.c.xy, w.id.y, w.id.z);
+    float ca = sign_cross(w.c.xy, w.a.xy, w.id.z, w.id.x), ad = sign_cross(w.a.xy, w.d.xy, w.id.x, w.ahead);
+    float bd = sign_cross(w.b.xy, w.d.xy, w.id.y, w.ahead), cd = sign_cross(w.c.xy, w.d.xy, w.id.z, w.ahead);
+    bvec4 left = bvec4(ab > 0.0 && bc > 0.0 && ca > 0.0, ab > 0.0 && bd > 0.0 && ad < 0.0,
+                       bc > 0.0 && cd > 0.0 && bd < 0.0, ca > 0.0 && ad > 0.0 && cd < 0.0);
+    bvec4 right = bvec4(ab < 0.0 && bc < 0.0 && ca < 0.0, ab < 0.0 && bd < 0.0 && ad > 0.0,
+                        bc < 0.0 && cd < 0.0 && bd > 0.0, ca < 0.0 && ad < 0.0 && cd > 0.0);
+    uvec4 holds = uvec4(left) + uvec4(right);
+    return holds.x + holds.y + holds.z + holds.w;
+}
+#endif
+
 // One cell step: from the face into w.cell and out at the face that holds the ray there.
 Segment walk_step(inout Walk w, Ray ray)
 {

@@ -208,7 +208,7 @@ static void clear_stats(tc_render_stats *stats)
         stats->ms_frame = stats->ms_readback = -1;
     stats->gpu_bytes_mesh = stats->gpu_bytes_other = stats->gpu_bytes_table = stats->gpu_bytes_state = -1;
     stats->steps_per_pass = stats->z_update_every = stats->passes = stats->z_updates = stats->layers = -1;
-    stats->rays = stats->rays_lost = stats->steps = stats->steps_max = -1;
+    stats->rays = stats->rays_lost = stats->steps = stats->steps_max = stats->audit_broken = -1;
 }
 
 tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
@@ -230,6 +230,21 @@ tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *rendere
     status = renderer->driver->render(*out, stats, renderer, &frame, err);
     if (status != TC_OK && status != TC_E_LOST)
         tc_image_destroy(out);
+    return status;
+}
+
+tc_status tc_render_audit(tc_audit_ray *out, tc_renderer *renderer, tc_error *err)
+{
+    if (!renderer->gpu)
+        return tc_fail(err, TC_E_ARG, "the driver '%s' does not walk from cell to cell: there is nothing to audit",
+                       renderer->driver->name);
+    const tc_gl *gl = &tc_gpu_renderer_context(renderer->gpu)->gl;
+    tc_gl_saved saved;
+    if (renderer->host)
+        tc_gl_save(&saved, gl);
+    tc_status status = tc_gpu_audit(out, renderer->gpu, err);
+    if (renderer->host)
+        tc_gl_restore(&saved, gl);
     return status;
 }
 
