@@ -2,6 +2,7 @@
 #include "gpu/context.h"
 
 #include "core/memory.h"
+#include "gpu/watch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,13 +21,22 @@ static bool is_software(const char *renderer)
            strstr(renderer, "Software");
 }
 
+static void finish(tc_context *context)
+{
+    context->kind->finish(context);
+    tc_gl_watch_end(&context->gl);
+}
+
 static tc_status try_kind(tc_context *context, const tc_context_kind *kind, tc_error *err)
 {
     memset(context, 0, sizeof *context);
     context->kind = kind;
+    context->debug = tc_gl_watch_wanted();
     tc_status status = kind->create(context, err);
+    if (status == TC_OK && context->debug)
+        status = tc_gl_watch_begin(&context->gl, context->get_proc, err);
     if (status != TC_OK) {
-        kind->finish(context);
+        finish(context);
         return status;
     }
     context->software = is_software(context->gl.renderer);
@@ -40,7 +50,7 @@ static tc_status create_auto(tc_context *context, const tc_log *log, tc_error *e
         if (!context->software)
             return TC_OK;
         tc_say(log, TC_DEBUG, "context egl: %s is a software renderer; osmesa is tried first", context->gl.renderer);
-        tc_context_egl.finish(context);
+        finish(context);
         snprintf(why_egl.text, sizeof why_egl.text, "software renderer");
     } else {
         tc_say(log, TC_DEBUG, "context egl: %s", why_egl.text);
@@ -128,7 +138,7 @@ void tc_context_destroy(tc_context **context)
 {
     if (!*context)
         return;
-    (*context)->kind->finish(*context);
+    finish(*context);
     free(*context);
     *context = NULL;
 }

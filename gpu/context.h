@@ -7,7 +7,7 @@
 
 typedef struct tc_context tc_context;
 
-/* One kind of context. `create` makes it current and fills context->gl; `missing` text goes to err. */
+/* One kind of context. `create` makes it current and fills context->gl and get_proc; `missing` text goes to err. */
 typedef struct tc_context_kind {
     const char *name;
     tc_status (*create)(tc_context *context, tc_error *err);
@@ -18,8 +18,10 @@ typedef struct tc_context_kind {
 struct tc_context {
     const tc_context_kind *kind;
     tc_gl gl;
-    bool software; /* the renderer runs on the CPU */
-    void *state;   /* of the kind */
+    bool software;        /* the renderer runs on the CPU */
+    bool debug;           /* create asks for a debug context */
+    tc_get_proc get_proc; /* set by create */
+    void *state;          /* of the kind */
 };
 
 extern const tc_context_kind tc_context_osmesa, tc_context_egl;
@@ -28,9 +30,10 @@ extern const tc_context_kind tc_context_osmesa, tc_context_egl;
 const tc_context_kind *const *tc_context_kinds(void);
 
 /* name: "auto" (a hardware EGL, else OSMesa, else a software EGL; says to log why one was refused) or a kind's name.
+ * Where the environment says TETCAST_GL_DEBUG=1 it is a debug context, watched (watch.h).
  * Errors: TC_E_ARG (unknown name: lists them), TC_E_GL (none works: says why, each). */
 tc_status tc_context_create(tc_context **out, const char *name, const tc_log *log, tc_error *err);
-/* A context that the host owns and has made current; its make_current does nothing. */
+/* A context that the host owns and has made current; its make_current does nothing; it is left as it is, so not watched. */
 tc_status tc_context_create_host(tc_context **out, tc_get_proc get_proc, tc_error *err);
 tc_status tc_context_make_current(tc_context *context, tc_error *err);
 void tc_context_destroy(tc_context **context);

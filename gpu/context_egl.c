@@ -85,6 +85,8 @@ static tc_status open_display(tc_context *context, EGLDisplay display, tc_error 
                                      minor,
                                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     context->debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE,
+                                     EGL_TRUE,
                                      EGL_NONE};
         s->context = s->create_context(display, config, EGL_NO_CONTEXT, attributes);
     }
@@ -117,6 +119,7 @@ static tc_status egl_create(tc_context *context, tc_error *err)
         !load(s, "eglDestroyContext", &s->destroy_context) || !load(s, "eglMakeCurrent", &s->make_current) ||
         !load(s, "eglQueryString", &s->query_string))
         return tc_fail(err, TC_E_GL, "libEGL.so.1 lacks functions of EGL 1.4");
+    context->get_proc = s->get_proc;
     load_extension(s, "eglGetPlatformDisplayEXT", &s->get_platform_display);
     load_extension(s, "eglQueryDevicesEXT", &s->query_devices);
     load_extension(s, "eglQueryDeviceStringEXT", &s->query_device_string);

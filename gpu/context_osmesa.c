@@ -80,7 +80,8 @@ static tc_status osmesa_create(tc_context *context, tc_error *err)
     }
     if (!s->context)
         return tc_fail(err, TC_E_GL, "OSMesa offers no OpenGL 4.3 core context");
-    tc_status status = osmesa_make_current(context, err);
+    context->get_proc = s->get_proc;
+    tc_status status = osmesa_make_current(context, err); /* a debug context needs no flag here */
     return status == TC_OK ? tc_gl_load(&context->gl, s->get_proc, err) : status;
 }
 

@@ -1,6 +1,8 @@
 /* gl.c: fills the table of GL functions. */
 #include "gpu/gl.h"
 
+#include "gpu/watch.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -36,10 +38,11 @@ tc_status tc_gl_check(const tc_gl *gl, const char *what, tc_error *err)
 {
     GLenum first = gl->GetError();
     if (first == GL_NO_ERROR)
-        return TC_OK;
+        return gl->watch ? tc_gl_watch_check(gl, what, err) : TC_OK;
     for (int i = 0; i < 16 && gl->GetError() != GL_NO_ERROR; i++)
         ;
+    tc_status status = gl->watch ? tc_gl_watch_check(gl, what, err) : TC_OK; /* says more than the error's number */
     if (first == GL_OUT_OF_MEMORY)
         return tc_fail(err, TC_E_MEMORY, "GPU memory ran out while %s; use a smaller mesh, image or table", what);
-    return tc_fail(err, TC_E_GL, "GL error 0x%04X while %s", first, what);
+    return status != TC_OK ? status : tc_fail(err, TC_E_GL, "GL error 0x%04X while %s", first, what);
 }

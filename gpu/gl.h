@@ -100,6 +100,8 @@
     X(PFNGLVERTEXATTRIBIPOINTERPROC, VertexAttribIPointer)                                                             \
     X(PFNGLVIEWPORTPROC, Viewport)
 
+typedef struct tc_gl_watch tc_gl_watch;
+
 typedef struct tc_gl {
 #define X(type, name) type name;
     TC_GL_FUNCTIONS(X)
@@ -107,6 +109,8 @@ typedef struct tc_gl {
     char renderer[128], version[64];
     int major, minor;
     GLint max_texture_size, max_texture_3d, max_texture_buffer;
+    bool poison;               /* TETCAST_GL_POISON: what is allocated is filled with NaN (tc_gl_poison) */
+    tc_gl_watch *watch;        /* NULL but where GL's debug output is listened to (watch.h) */
 } tc_gl;
 
 typedef void *(*tc_get_proc)(const char *name);
@@ -114,7 +118,8 @@ typedef void *(*tc_get_proc)(const char *name);
 /* Fills the table for the context that is current. Errors: TC_E_GL, naming the missing function or the version found.
  */
 tc_status tc_gl_load(tc_gl *gl, tc_get_proc get_proc, tc_error *err);
-/* TC_E_GL with GL's error name if one is pending; `what` says what was being done. */
+/* TC_E_GL with GL's error name if one is pending, or, in a context that is watched, with what GL's debug output says;
+ * TC_E_MEMORY if GL has none left. `what` says what was being done. */
 tc_status tc_gl_check(const tc_gl *gl, const char *what, tc_error *err);
 
 #endif

@@ -237,6 +237,8 @@ static tc_status build(GLuint *program, const tc_gl *gl, const char *vertex_text
         gl->DeleteShader(vertex);
     if (fragment)
         gl->DeleteShader(fragment);
+    if (status != TC_OK)
+        (void)tc_gl_check(gl, "compiling", NULL); /* GL's debug output told the same */
     return status;
 }
 
