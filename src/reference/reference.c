@@ -165,13 +165,20 @@ void tc_reference_destroy(tc_reference **reference)
     *reference = NULL;
 }
 
+void tc_reference_set_nan_color(tc_reference *reference, const double *color)
+{
+    reference->has_nan_color = color != NULL;
+    if (color)
+        memcpy(reference->nan_color, color, sizeof reference->nan_color);
+}
+
 tc_status tc_reference_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
-                             const double origin[3], const double direction[3], double t_min, int worker)
+                             const double origin[3], const double direction[3], const double range[2], int worker)
 {
     if (worker < 0 || worker >= TC_REFERENCE_WORKERS || !(unit > 0))
         return TC_E_ARG;
     tc_line line;
-    tc_line_init(&line, reference, origin, direction, t_min);
+    tc_line_init(&line, reference, origin, direction, range);
     return tc_line_trace(out, reference, tf, unit, &line, 0, worker);
 }
 
@@ -190,11 +197,11 @@ static void render_rows(void *context, size_t begin, size_t end, int worker)
     render *c = context;
     for (size_t row = begin; row < end; row++) {
         for (int x = 0; x < c->image->width; x++) {
-            double origin[3], direction[3];
+            double origin[3], direction[3], range[2], X = x + 0.5, Y = c->image->height - (double)row - 0.5;
             tc_reference_ray ray;
-            tc_rays_pixel(origin, direction, c->rays, x + 0.5, c->image->height - (double)row - 0.5);
-            if (tc_reference_trace(&ray, c->reference, c->tf, c->unit, origin, direction,
-                                   c->rays->parallel ? -INFINITY : 0, worker) != TC_OK) {
+            tc_rays_pixel(origin, direction, c->rays, X, Y);
+            tc_rays_range(range, c->rays, X, Y);
+            if (tc_reference_trace(&ray, c->reference, c->tf, c->unit, origin, direction, range, worker) != TC_OK) {
                 atomic_store(&c->memory_out, 1);
                 return;
             }

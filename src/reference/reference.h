@@ -6,9 +6,9 @@
  * entry depth and integrated exactly between the function's knots (segment.c). Overlapping tets are composited in entry
  * order.
  *
- * A tet with a scalar that is not finite at any corner (or its own, for cell data) is transparent: it adds to the
- * length and to the segments but not to the colour. Tets that repeat a vertex, or have a corner that is missing or not
- * finite, are left out. */
+ * A tet with a scalar that is not finite at any corner (or its own, for cell data) is transparent, unless
+ * tc_reference_set_nan_color gives it a colour: it adds to the length and to the segments but not to the picture. Tets
+ * that repeat a vertex, or have a corner that is missing or not finite, are left out. */
 #ifndef TC_REFERENCE_REFERENCE_H
 #define TC_REFERENCE_REFERENCE_H
 
@@ -24,18 +24,23 @@ typedef struct tc_reference tc_reference;
 tc_status tc_reference_create(tc_reference **out, const tc_mesh *mesh, int threads, tc_error *err);
 void tc_reference_destroy(tc_reference **reference);
 
+/* Tets with a scalar that is not finite show this colour from now on: color [4], r, g, b and the attenuation per unit
+ * distance, copied; NULL: they are transparent again. Not while rays are traced. */
+void tc_reference_set_nan_color(tc_reference *reference, const double *color);
+
 typedef struct tc_reference_ray {
     double rgba[4]; /* premultiplied */
-    double length;  /* of all real segments in front of the eye */
+    double length;  /* of all real segments that are seen */
     size_t segments;
 } tc_reference_ray;
 
-/* One ray: origin, unit direction, from t_min on (0 in perspective, -infinity in parallel).
+/* One ray: origin, unit direction, and the part of it that is seen, range [2] (tc_rays_range; either end may be
+ * infinite).
  * unit: the unit distance U. opacity_stop is NOT applied: the truth has no early end. worker: 0..255, as from
  * tc_parallel_for; two threads may trace at once with different ones.
  * Errors: TC_E_MEMORY; TC_E_ARG (worker, unit <= 0). Cost: O(log n + segments). */
 tc_status tc_reference_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
-                             const double origin[3], const double direction[3], double t_min, int worker);
+                             const double origin[3], const double direction[3], const double range[2], int worker);
 
 /* Every pixel. log: progress only, from the calling thread. Errors: TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
 tc_status tc_reference_render(tc_image *image, const tc_reference *reference, const tc_transfer *tf, double unit,
@@ -49,10 +54,10 @@ void tc_reference_segment(double out[4], const tc_transfer *tf, double s0, doubl
 /* Compares n pixels of image (drawn without repetition from seed; n >= all: all) with the reference, channel by
  * channel, float against double. worst_x, worst_y: the image's column and row (row 0 at the top). rays_lost stays 0.
  * Ill-posed rays are counted and left out of max, p999 and mean: their reference colour
- * moves by more than 1/1020 in a channel when the ray is shifted by 2^-22 of the diagonal to any of four sides, or all
- * scalars by 2^-22 of their range up or down. Only rays whose error exceeds 1/1020 are asked: others could not raise
- * the maximum above it. A channel that is not finite counts as an error of FLT_MAX and is never ill-posed. Errors:
- * TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
+ * moves by more than 1/1020 in a channel when the ray is shifted by 2^-22 of the diagonal to any of four sides or as
+ * far along both to any of four corners, or all scalars by 2^-22 of their range up or down. Only rays whose error
+ * exceeds 1/1020 are asked: others could not raise the maximum above it. A channel that is not finite counts as an
+ * error of FLT_MAX and is never ill-posed. Errors: TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
 tc_status tc_reference_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed,
                               const tc_reference *reference, const tc_transfer *tf, double unit, const tc_rays *rays,
                               int threads, const tc_log *log, tc_error *err);

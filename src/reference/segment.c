@@ -143,6 +143,12 @@ void tc_segment_add(tc_segment_sum *out, const tc_transfer *tf, double s0, doubl
     }
 }
 
+void tc_segment_add_constant(tc_segment_sum *out, const double color[4], double l)
+{
+    if (l > 0)
+        add_piece(out, color, color, l);
+}
+
 void tc_reference_segment(double out[4], const tc_transfer *tf, double s0, double s1, double l)
 {
     tc_segment_sum sum = {.rgba = {0, 0, 0, 0}, .clear = 1};

@@ -23,7 +23,7 @@ static const double REACH = 1.00001;
 static const double ROUNDING = 4e-16, DOUBT = 1e-8, ASIDE = 0x1p-40;
 
 void tc_line_init(tc_line *out, const tc_reference *reference, const double origin[3], const double direction[3],
-                  double t_min)
+                  const double range[2])
 {
     double o[3];
     for (int i = 0; i < 3; i++)
@@ -32,7 +32,10 @@ void tc_line_init(tc_line *out, const tc_reference *reference, const double orig
     tc_vec_normalize(out->d);
     double t = -tc_vec_dot(o, out->d);
     tc_vec_mul_add(out->base, o, t, out->d);
-    out->t_min = t_min * reference->scale - t;
+    out->t_min = range[0] * reference->scale - t;
+    out->t_max = range[1] * reference->scale - t;
+    out->unsure = 0;
+    out->whole = false;
 
     int k = 0;
     for (int i = 1; i < 3; i++)
@@ -102,6 +105,26 @@ static double pass_face(double *t, double *s, const corner p[4], const double z[
     return error < DOUBT * total ? 0 : fmin(error / total, deep);
 }
 
+/* Scalar at depth t of a part of some length. */
+static double scalar_at(const tc_hit *hit, double t)
+{
+    double w = (t - hit->t0) / (hit->t1 - hit->t0);
+    return w < 0.5 ? hit->s0 + w * (hit->s1 - hit->s0) : hit->s1 + (1 - w) * (hit->s0 - hit->s1);
+}
+
+/* Leaves what lies between t_min and t_max; false: nothing. */
+static bool cut(tc_hit *hit, double t_min, double t_max)
+{
+    if (!(hit->t1 > t_min && hit->t0 < t_max))
+        return false;
+    const tc_hit whole = *hit;
+    if (hit->t0 < t_min)
+        hit->t0 = t_min, hit->s0 = scalar_at(&whole, t_min);
+    if (hit->t1 > t_max)
+        hit->t1 = t_max, hit->s1 = scalar_at(&whole, t_max);
+    return hit->t0 < hit->t1;
+}
+
 /* The part of the ray in tet number item; false: none. *worst is raised to the error of its depths. */
 static bool clip(tc_hit *hit, double *worst, const tc_reference *reference, const tc_line *line, uint32_t item,
                  double shift)
@@ -135,29 +158,23 @@ static bool clip(tc_hit *hit, double *worst, const tc_reference *reference, cons
         value[i] += shift;
     }
     int n = 0;
+    uint8_t opposite[4];
     double doubt = 0;
     if (f012)
-        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 0, 1, 2, c01, c12, c02)), n++;
+        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 0, 1, 2, c01, c12, c02)), opposite[n++] = 3;
     if (f013)
-        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 0, 1, 3, c01, c13, c03)), n++;
+        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 0, 1, 3, c01, c13, c03)), opposite[n++] = 2;
     if (f023)
-        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 0, 2, 3, c02, c23, c03)), n++;
+        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 0, 2, 3, c02, c23, c03)), opposite[n++] = 1;
     if (f123)
-        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 1, 2, 3, c12, c23, c13)), n++;
+        doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 1, 2, 3, c12, c23, c13)), opposite[n++] = 0;
     *worst = fmax(*worst, doubt);
     int first = t[0] <= t[1] ? 0 : 1;
-    *hit = (tc_hit){t[first], t[1 - first], s[first], s[1 - first], tet};
+    *hit = (tc_hit){t[first], t[1 - first], s[first], s[1 - first], tet, opposite[first], opposite[1 - first]};
     for (int i = 0; i < 4; i++)
         if (!isfinite(value[i]))
             hit->s0 = hit->s1 = NAN; /* a value that is not known: see reference.h */
-    if (hit->t1 <= line->t_min)
-        return false;
-    if (hit->t0 < line->t_min) {
-        double w = (line->t_min - hit->t0) / (hit->t1 - hit->t0);
-        hit->s0 = w < 0.5 ? hit->s0 + w * (hit->s1 - hit->s0) : hit->s1 + (1 - w) * (hit->s0 - hit->s1);
-        hit->t0 = line->t_min;
-    }
-    return hit->t0 < hit->t1;
+    return line->whole || (hit->t0 < hit->t1 && cut(hit, line->t_min, line->t_max));
 }
 
 static bool push(tc_scratch *scratch, size_t n, const tc_hit *hit)
@@ -177,13 +194,13 @@ static bool push(tc_scratch *scratch, size_t n, const tc_hit *hit)
 /* The line in float, for boxes only: their padding covers its rounding. */
 typedef struct slab {
     float base[3], inverse[3];
-    float t_min;
+    float t_min, t_max;
 } slab;
 
 /* Entry into the box; FLT_MAX: it is missed. */
 static float enter(const slab *s, const tc_bvh_box *b)
 {
-    float t0 = s->t_min, t1 = FLT_MAX;
+    float t0 = s->t_min, t1 = s->t_max;
     for (int i = 0; i < 3; i++) {
         float a = (b->lo[i] - s->base[i]) * s->inverse[i], c = (b->hi[i] - s->base[i]) * s->inverse[i];
         float low = a < c ? a : c, high = a < c ? c : a;
@@ -207,8 +224,9 @@ static bool collect(size_t *n, double *worst, tc_scratch *scratch, const tc_refe
         s.base[i] = (float)line->base[i];
         s.inverse[i] = (float)(1 / d);
     }
-    /* Hits lie within 1 of the base; a margin for the rounding of t_min. */
-    s.t_min = line->t_min < -2 ? -2.0f : line->t_min > 2 ? 2.0f : (float)line->t_min - 1e-5f;
+    /* Hits lie within 1 of the base; a margin for the rounding of both ends. */
+    s.t_min = (float)fmin(fmax(line->t_min, -2), 2) - 1e-5f;
+    s.t_max = (float)fmin(fmax(line->t_max, -2), 2) + 1e-5f;
     const tc_bvh_node *node = reference->bvh.node;
     uint32_t stack[TC_BVH_STACK];
     int top = 0;
@@ -288,6 +306,25 @@ static void sort(tc_hit *hit, size_t n)
     }
 }
 
+/* The hits again, in the order that overlap.c defines. */
+static bool collect_overlapping(size_t *n, tc_scratch *scratch, const tc_reference *reference, const tc_line *line,
+                                double shift)
+{
+    tc_line all = *line;
+    all.whole = true;
+    all.t_min = -INFINITY; /* runs begin where the ray enters them, seen or not */
+    size_t m;
+    if (!collect_surely(&m, scratch, reference, &all, shift) || !tc_hits_order(scratch->hit, m, reference, line->unsure))
+        return false;
+    *n = 0;
+    for (size_t i = 0; i < m; i++) {
+        tc_hit *hit = &scratch->hit[i];
+        if (hit->t0 < hit->t1 && cut(hit, line->t_min, line->t_max))
+            scratch->hit[(*n)++] = *hit;
+    }
+    return true;
+}
+
 tc_status tc_line_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
                         const tc_line *line, double shift, int worker)
 {
@@ -297,13 +334,19 @@ tc_status tc_line_trace(tc_reference_ray *out, const tc_reference *reference, co
     if (!collect_surely(&n, scratch, reference, line, shift))
         return TC_E_MEMORY;
     sort(scratch->hit, n);
+    if (tc_hits_overlap(scratch->hit, n) && !collect_overlapping(&n, scratch, reference, line, shift))
+        return TC_E_MEMORY;
     tc_segment_sum sum = {.rgba = {0, 0, 0, 0}, .clear = 1};
     for (size_t i = 0; i < n; i++) {
         const tc_hit *h = &scratch->hit[i];
         double length = (h->t1 - h->t0) / reference->scale;
         out->length += length;
-        if (sum.clear > 1e-18 && isfinite(h->s0) && isfinite(h->s1)) /* what is behind 1e-18 cannot be told */
+        if (!(sum.clear > 1e-18)) /* what is behind cannot be told */
+            continue;
+        if (isfinite(h->s0) && isfinite(h->s1))
             tc_segment_add(&sum, tf, h->s0, h->s1, length / unit);
+        else if (reference->has_nan_color)
+            tc_segment_add_constant(&sum, reference->nan_color, length / unit);
     }
     for (int i = 0; i < 4; i++)
         out->rgba[i] = sum.rgba[i];

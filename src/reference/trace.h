@@ -12,6 +12,7 @@ enum { TC_REFERENCE_WORKERS = 256 };
 typedef struct tc_hit {
     double t0, t1, s0, s1;
     uint32_t tet;
+    uint8_t in, out; /* the faces at t0 and t1, by the rank of the corner opposite among the tet's ids */
 } tc_hit;
 
 typedef struct tc_scratch {
@@ -27,19 +28,29 @@ struct tc_reference {
     double *vertex;                         /* [mesh->n_vertex][3] scaled */
     int32_t (*tet)[4];                      /* [bvh.n_item] vertex ids, ascending, in leaf order */
     tc_bvh bvh;                             /* order: ids of the mesh's tets */
-    tc_scratch *scratch;                    /* [TC_REFERENCE_WORKERS] */
+    bool has_nan_color;
+    double nan_color[4];
+    tc_scratch *scratch; /* [TC_REFERENCE_WORKERS] */
 };
 
 /* A ray in the scaled frame: base is its point nearest the centre, t is counted from there. */
 typedef struct tc_line {
     double base[3], u[3], v[3], d[3]; /* orthonormal u, v, d */
-    double t_min;
+    double t_min, t_max;              /* what is seen */
+    double unsure; /* overlapping runs: by how much their entries are moved against each other (overlap.c); 0 */
+    bool whole;    /* every cell is a hit, whole: those of no length and those that are not seen too */
 } tc_line;
 
 void tc_line_init(tc_line *out, const tc_reference *reference, const double origin[3], const double direction[3],
-                  double t_min);
+                  const double range[2]);
 /* As tc_reference_trace; shift is added to every scalar. */
 tc_status tc_line_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
                         const tc_line *line, double shift, int worker);
+
+/* Do hits in the order of entry reach into each other? Cost: O(n). */
+bool tc_hits_overlap(const tc_hit *hit, size_t n);
+/* Orders the hits of a whole line (tc_line.whole) as overlap.c says. unsure: runs are moved by up to this. False: no
+ * memory. Cost: O(n log n). */
+bool tc_hits_order(tc_hit *hit, size_t n, const tc_reference *reference, double unsure);
 
 #endif

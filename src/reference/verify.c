@@ -59,17 +59,23 @@ static double distance(const double a[4], const double b[4])
     return m;
 }
 
-/* Moves the ray by +-SHIFT of the diagonal along u and v, then the data by +-SHIFT of their range. */
+/* Moves the ray by SHIFT of the diagonal to the four sides, along u and v, and to the four corners between them (a ray
+ * at a corner of the hull may stay in the mesh, or out of it, on all four sides), then the data by +-SHIFT of their
+ * range. */
 static tc_status judge(bool *ill, const check *c, const tc_line *line, const tc_reference_ray *ray, int worker)
 {
     *ill = false;
-    for (int k = 0; k < 6 && !*ill; k++) {
+    static const double side[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+    const double by = SHIFT * 2 * c->reference->half_diagonal;
+    for (int k = 0; k < 10 && !*ill; k++) {
         tc_line moved = *line;
-        double by = k % 2 ? -SHIFT : SHIFT, data = 0;
-        if (k < 4)
-            tc_vec_mul_add(moved.base, line->base, by * 2 * c->reference->half_diagonal, k < 2 ? line->u : line->v);
-        else
-            data = by * c->range;
+        double data = 0;
+        if (k < 8) {
+            tc_vec_mul_add(moved.base, line->base, by * side[k][0], line->u);
+            tc_vec_mul_add(moved.base, moved.base, by * side[k][1], line->v);
+        } else {
+            data = k % 2 ? -SHIFT * c->range : SHIFT * c->range;
+        }
         tc_reference_ray other;
         tc_status status = tc_line_trace(&other, c->reference, c->tf, c->unit, &moved, data, worker);
         if (status != TC_OK)
@@ -82,11 +88,12 @@ static tc_status judge(bool *ill, const check *c, const tc_line *line, const tc_
 static tc_status check_pixel(const check *c, size_t k, int worker)
 {
     size_t at = c->pixel ? c->pixel[k] : k, width = (size_t)c->image->width;
-    double origin[3], direction[3];
-    tc_rays_pixel(origin, direction, c->rays, (double)(at % width) + 0.5,
-                  (double)c->image->height - (double)(at / width) - 0.5);
+    double X = (double)(at % width) + 0.5, Y = (double)c->image->height - (double)(at / width) - 0.5;
+    double origin[3], direction[3], range[2];
+    tc_rays_pixel(origin, direction, c->rays, X, Y);
+    tc_rays_range(range, c->rays, X, Y);
     tc_line line;
-    tc_line_init(&line, c->reference, origin, direction, c->rays->parallel ? -INFINITY : 0);
+    tc_line_init(&line, c->reference, origin, direction, range);
     tc_reference_ray ray;
     tc_status status = tc_line_trace(&ray, c->reference, c->tf, c->unit, &line, 0, worker);
     if (status != TC_OK)

@@ -189,6 +189,17 @@ static tc_status check(const tc_camera *c, int width, int height, tc_error *err)
         return tc_fail(err, TC_E_ARG, "the view angle of %g degrees is outside (0, 180)", c->view_angle);
     if (c->parallel && !(c->parallel_scale > 0 && isfinite(c->parallel_scale)))
         return tc_fail(err, TC_E_ARG, "the parallel scale %g must be positive and finite", c->parallel_scale);
+    bool clipped = c->clip_near != 0 || c->clip_far != 0;
+    if (clipped && !(c->clip_near >= 0 && isfinite(c->clip_near)))
+        return tc_fail(
+            err, TC_E_ARG,
+            "the near clipping distance %g must be finite and not below 0; it is measured from the eye along "
+            "the view",
+            c->clip_near);
+    if (clipped && !(c->clip_far > c->clip_near && isfinite(c->clip_far)))
+        return tc_fail(err, TC_E_ARG,
+                       "the far clipping distance %g must be finite and beyond the near one, %g (both 0: no clipping)",
+                       c->clip_far, c->clip_near);
     return TC_OK;
 }
 
@@ -218,6 +229,9 @@ tc_status tc_rays_from_camera(tc_rays *out, const tc_camera *camera, int width, 
     out->parallel = camera->parallel;
     out->width = width, out->height = height;
     tc_vec_copy(out->eye, camera->position);
+    tc_vec_copy(out->axis, forward);
+    out->near = camera->clip_near;
+    out->far = camera->clip_far > 0 ? camera->clip_far : INFINITY;
     double *corner = camera->parallel ? out->origin : out->direction;
     double *dx = camera->parallel ? out->origin_dx : out->direction_dx;
     double *dy = camera->parallel ? out->origin_dy : out->direction_dy;
@@ -246,4 +260,19 @@ void tc_rays_pixel(double *origin, double *direction, const tc_rays *rays, doubl
     tc_vec_copy(origin, rays->parallel ? o : rays->eye);
     tc_vec_normalize(d);
     tc_vec_copy(direction, d);
+}
+
+void tc_rays_range(double *range, const tc_rays *rays, double X, double Y)
+{
+    double from_plane[3] = {0, 0, 0}, d[3];
+    for (int i = 0; i < 3; i++) {
+        d[i] = rays->direction[i] + X * rays->direction_dx[i] + Y * rays->direction_dy[i];
+        if (rays->parallel)
+            from_plane[i] = rays->origin[i] + X * rays->origin_dx[i] + Y * rays->origin_dy[i] - rays->eye[i];
+    }
+    tc_vec_normalize(d);
+    double forward = tc_vec_dot(d, rays->axis); /* of one unit along the ray */
+    double origin = tc_vec_dot(from_plane, rays->axis);
+    range[0] = (rays->near - origin) / forward;
+    range[1] = (rays->far - origin) / forward;
 }

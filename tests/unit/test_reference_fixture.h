@@ -115,7 +115,8 @@ static inline tc_reference_ray trace(const tc_reference *r, const tc_transfer *t
                                      double t_min)
 {
     tc_reference_ray ray;
-    assert_int_equal(tc_reference_trace(&ray, r, tf, 1.0, o, d, t_min, 0), TC_OK);
+    const double range[2] = {t_min, INFINITY};
+    assert_int_equal(tc_reference_trace(&ray, r, tf, 1.0, o, d, range, 0), TC_OK);
     return ray;
 }
 

@@ -483,7 +483,8 @@ static void size_or_offset_changes_the_picture(void **state)
             tc_vec_sub(d, p, OUTSIDE);
             tc_vec_normalize(d);
             tc_reference_ray x = trace(a, &ramp, OUTSIDE, d, 0), y;
-            assert_int_equal(tc_reference_trace(&y, b, &ramp, cases[c].size, o, d, 0, 0), TC_OK);
+            const double ahead[2] = {0, INFINITY};
+            assert_int_equal(tc_reference_trace(&y, b, &ramp, cases[c].size, o, d, ahead, 0), TC_OK);
             NEAR(y.length / cases[c].size, x.length, cases[c].tolerance);
             for (int i = 0; i < 4; i++)
                 NEAR(y.rgba[i], x.rgba[i], cases[c].tolerance);
@@ -586,6 +587,76 @@ static void unknown_values_colour_the_picture(void **state)
     mesh_free(&m);
 }
 
+static void unknown_values_have_another_colour_than_asked(void **state)
+{
+    (void)state;
+    /* Three cells along z, the middle one with unknown values: closed form, points and cells. */
+    struct tc_mesh m = kuhn_cube(3);
+    const double o[3] = {0.42, 0.45, 3}, d[3] = {0, 0, -1}, violet[4] = {0.5, 0, 1, 6};
+    tc_reference *r = reference_of(&m);
+    double *points = m.scalar, *cells = calloc(m.n_tet, sizeof *cells);
+    assert_non_null(cells);
+    for (size_t t = 0; t < m.n_tet; t++) /* 6 a cube, x fastest: the middle layer */
+        cells[t] = t / 54 == 1 ? (t % 2 ? NAN : -INFINITY) : 0;
+    m.scalar = cells, m.association = TC_CELL_DATA;
+    const double third = exp(-1.0 / 3), hidden = exp(-2.0);
+    for (int pass = 0; pass < 3; pass++) { /* transparent, violet, transparent again */
+        tc_reference_set_nan_color(r, pass == 1 ? violet : NULL);
+        tc_reference_ray ray = trace(r, &grey, o, d, 0);
+        double clear = pass == 1 ? third * hidden * third : third * third;
+        NEAR(ray.rgba[3], 1 - clear, 1e-14);
+        NEAR(ray.length, 1, 1e-14);
+        double last =
+            trace(r, &grey, o, d, 3 - 1.0 / 3).rgba[2]; /* from z = 1/3 down: the last layer; so is the first */
+        double blue = pass == 1 ? last + third * (1 - hidden) + third * hidden * last : last + third * last;
+        NEAR(ray.rgba[2], blue, 1e-13);
+    }
+    m.scalar = points, m.association = TC_POINT_DATA;
+    m.scalar[0] = NAN; /* a corner of all tets of one cube only */
+    tc_reference_set_nan_color(r, violet);
+    const double through[3] = {0.1, 0.12, 3};
+    NEAR(trace(r, &grey, through, d, 0).rgba[3], 1 - third * third * hidden, 1e-13);
+    tc_reference_destroy(&r);
+    free(cells);
+    mesh_free(&m);
+}
+
+static void clipping_keeps_or_takes_too_much(void **state)
+{
+    (void)state;
+    struct tc_mesh m = kuhn_cube(3);
+    linear_field(&m, 0.1, 0.3, 0.2, 0.4);
+    tc_reference *r = reference_of(&m);
+    tc_knot k[3] = {{0, 1, 0, 0, 1}, {0.4, 0, 1, 0, 3}, {1, 0, 0, 1, 0.5}};
+    struct tc_transfer tf = {.n = 3, .knot = k};
+    uint64_t seed = 77;
+    for (int run = 0; run < 300; run++) {
+        double p[3], d[3], t = uniform(&seed, 1, 3), far = t + uniform(&seed, 1e-9, 1.5);
+        for (int i = 0; i < 3; i++)
+            p[i] = uniform(&seed, 0, 1);
+        tc_vec_sub(d, p, OUTSIDE);
+        tc_vec_normalize(d);
+        /* What is left between near and far, and what lies before and behind, make the whole. */
+        const double range[3][2] = {{-INFINITY, t}, {t, far}, {far, INFINITY}};
+        tc_reference_ray piece[3], whole = trace(r, &tf, OUTSIDE, d, 0);
+        double clear = 1, rgba[4] = {0, 0, 0, 0}, length = 0;
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(tc_reference_trace(&piece[i], r, &tf, 1, OUTSIDE, d, range[i], 0), TC_OK);
+            for (int c = 0; c < 4; c++)
+                rgba[c] += clear * piece[i].rgba[c];
+            clear *= 1 - piece[i].rgba[3];
+            length += piece[i].length;
+        }
+        NEAR(length, whole.length, 1e-13);
+        for (int c = 0; c < 4; c++)
+            NEAR(rgba[c], whole.rgba[c], 1e-12);
+        double behind = box_chord(OUTSIDE, d, 1, t), beyond = box_chord(OUTSIDE, d, 1, far);
+        NEAR(piece[1].length, behind - beyond, 1e-13);
+    }
+    tc_reference_destroy(&r);
+    mesh_free(&m);
+}
+
 static void broken_tets_break_the_others(void **state)
 {
     (void)state;
@@ -668,6 +739,8 @@ int main(void)
         cmocka_unit_test(what_lies_behind_the_eye_is_seen),
         cmocka_unit_test(overlapping_tets_are_merged),
         cmocka_unit_test(unknown_values_colour_the_picture),
+        cmocka_unit_test(unknown_values_have_another_colour_than_asked),
+        cmocka_unit_test(clipping_keeps_or_takes_too_much),
         cmocka_unit_test(broken_tets_break_the_others),
         cmocka_unit_test(small_cells_are_missed),
     };

@@ -70,7 +70,7 @@ static void picture_is_upside_down_or_off_by_a_pixel(void **state)
             for (int x = 0; x < W; x++) {
                 double o[3], d[3];
                 tc_rays_pixel(o, d, &s.rays, x + 0.5, H - y - 0.5);
-                tc_reference_ray ray = trace(s.reference, &s.tf, o, d, parallel ? -INFINITY : 0);
+                tc_reference_ray ray = trace(s.reference, &s.tf, o, d, parallel ? -1 : 0); /* the cube's middle: 0 */
                 const float *pixel = &s.pixels[4 * (y * W + x)];
                 for (int i = 0; i < 4; i++)
                     NEAR(pixel[i], ray.rgba[i], 6e-8);
@@ -199,6 +199,30 @@ static void ray_in_a_side_counts_as_an_error(void **state)
     scene_finish(&s);
 }
 
+/* A ray that passes beside an edge that is parallel to it: it stays outside, or in a quarter of the cases inside, when
+ * it moves to one of four sides; only a move to a corner tells. */
+static void ray_at_a_corner_counts_as_an_error(void **state)
+{
+    (void)state;
+    static const double beside[4][2] = {{1 + 1e-8, 1 + 1e-8}, {-1e-8, 1 + 1e-8}, {1 + 1e-8, -1e-8}, {-1e-8, -1e-8}};
+    for (int corner = 0; corner < 4; corner++) {
+        scene s;
+        scene_init(&s, true, 1);
+        s.rays.origin[0] = beside[corner][0] - 0.5 / 8, s.rays.origin[1] = beside[corner][1] - 0.5 / 8;
+        for (int i = 0; i < 3; i++)
+            s.rays.origin_dx[i] = i == 0 ? 1.0 / 8 : 0, s.rays.origin_dy[i] = i == 1 ? 1.0 / 8 : 0;
+        draw(&s, 1);
+        float *pixel = &s.pixels[4 * ((H - 1) * W)]; /* bottom left */
+        NEAR(pixel[3], 0, 0);
+        pixel[3] = 0.5f;
+        tc_verify_result v = verify(&s, W * H, 1, 1);
+        assert_int_equal(v.ill_posed, 1);
+        NEAR(v.worst_error_ill_posed, 0.5, 1e-6);
+        assert_true(v.max_abs_error < 1e-6);
+        scene_finish(&s);
+    }
+}
+
 /* A cell value that lies on a step of the function: the data decide, not the ray. */
 static void value_on_a_step_counts_as_an_error(void **state)
 {
@@ -259,8 +283,9 @@ static void bad_arguments_are_accepted(void **state)
                      TC_E_ARG);
     tc_reference_ray ray;
     const double o[3] = {0, 0, 3}, d[3] = {0, 0, -1};
-    assert_int_equal(tc_reference_trace(&ray, s.reference, &s.tf, 1, o, d, 0, -1), TC_E_ARG);
-    assert_int_equal(tc_reference_trace(&ray, s.reference, &s.tf, 1, o, d, 0, 256), TC_E_ARG);
+    const double ahead[2] = {0, INFINITY};
+    assert_int_equal(tc_reference_trace(&ray, s.reference, &s.tf, 1, o, d, ahead, -1), TC_E_ARG);
+    assert_int_equal(tc_reference_trace(&ray, s.reference, &s.tf, 1, o, d, ahead, 256), TC_E_ARG);
     tc_reference *none;
     assert_int_equal(tc_reference_create(&none, NULL, 1, &err), TC_E_ARG);
     assert_null(none);
@@ -308,6 +333,7 @@ int main(void)
         cmocka_unit_test(wrong_pixel_is_not_found_or_misplaced),
         cmocka_unit_test(sample_repeats_or_favours_pixels),
         cmocka_unit_test(ray_in_a_side_counts_as_an_error),
+        cmocka_unit_test(ray_at_a_corner_counts_as_an_error),
         cmocka_unit_test(value_on_a_step_counts_as_an_error),
         cmocka_unit_test(nan_in_the_picture_passes),
         cmocka_unit_test(bad_arguments_are_accepted),

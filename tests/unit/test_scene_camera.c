@@ -221,6 +221,41 @@ static void offset_moves_the_picture(void **state)
     }
 }
 
+static void clipping_planes_are_not_across_the_view(void **state)
+{
+    (void)state;
+    for (int parallel = 0; parallel < 2; parallel++)
+        for (int clip = 0; clip < 3; clip++) {
+            tc_camera c = front(1.3);
+            c.parallel = parallel;
+            tc_camera_azimuth(&c, 33), tc_camera_elevation(&c, -21);
+            tc_vec_mul_add(c.focal_point, c.focal_point, 1.5, UP); /* origins of parallel rays are not before the eye */
+            if (clip)
+                c.clip_near = clip == 1 ? 0 : 2.5, c.clip_far = 7;
+            tc_rays r;
+            assert_int_equal(tc_rays_from_camera(&r, &c, 130, 100, NULL), TC_OK);
+            double forward[3];
+            tc_vec_sub(forward, c.focal_point, c.position);
+            tc_vec_normalize(forward);
+            for (int k = 0; k < 50; k++) {
+                double X = 0.5 + (k * 37) % 130, Y = 0.5 + (k * 53) % 100, o[3], d[3], range[2], p[3];
+                tc_rays_pixel(o, d, &r, X, Y);
+                tc_rays_range(range, &r, X, Y);
+                for (int end = 0; end < 2; end++) {
+                    if (end == 1 && !clip) {
+                        assert_true(range[1] == INFINITY);
+                        continue;
+                    }
+                    tc_vec_mul_add(p, o, range[end], d);
+                    tc_vec_sub(p, p, c.position);
+                    NEAR(tc_vec_dot(p, forward), end ? c.clip_far : c.clip_near, 1e-13);
+                }
+                if (!parallel && !clip)
+                    NEAR(range[0], 0, 0);
+            }
+        }
+}
+
 static void expect_refusal(const tc_camera *c, int width, int height, const char *word)
 {
     tc_rays r;
@@ -251,6 +286,16 @@ static void a_bad_camera_is_accepted(void **state)
     expect_refusal(&c, 8, 8, "view angle");
     c = good, c.parallel = true, c.parallel_scale = 0;
     expect_refusal(&c, 8, 8, "parallel scale");
+    c = good, c.clip_near = -1, c.clip_far = 5;
+    expect_refusal(&c, 8, 8, "near clipping distance -1");
+    c = good, c.clip_near = 5, c.clip_far = 5;
+    expect_refusal(&c, 8, 8, "far clipping distance 5");
+    c = good, c.clip_near = 2; /* no far one */
+    expect_refusal(&c, 8, 8, "far clipping distance 0");
+    c = good, c.clip_far = INFINITY;
+    expect_refusal(&c, 8, 8, "inf");
+    c = good, c.clip_near = NAN;
+    expect_refusal(&c, 8, 8, "nan");
     c = good, c.view_angle = 200, c.parallel = true; /* the angle does not matter here */
     tc_rays r;
     assert_int_equal(tc_rays_from_camera(&r, &c, 8, 8, NULL), TC_OK);
@@ -280,6 +325,7 @@ int main(void)
         cmocka_unit_test(picture_is_upside_down_or_mirrored),
         cmocka_unit_test(sizes_flat_boxes_or_offsets_break_the_view),
         cmocka_unit_test(offset_moves_the_picture),
+        cmocka_unit_test(clipping_planes_are_not_across_the_view),
         cmocka_unit_test(a_bad_camera_is_accepted),
         cmocka_unit_test(nonsense_moves_poison_the_camera),
     };
