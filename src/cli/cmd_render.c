@@ -59,6 +59,7 @@ static int tc_frame(tc_render_run *run, tc_render_stats *stats, tc_renderer *ren
     tc_error err = {0};
     tc_render_options render = run->render;
     render.count = count;
+    render.audit = count && run->options->audit;
     tc_image_destroy(&run->image);
     tc_status status =
         tc_render(&run->image, stats, renderer, run->mesh, run->tf, &run->camera, &render, &talk->log, &err);
@@ -70,7 +71,7 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
 {
     const tc_render_command *options = run->options;
     size_t n = (size_t)options->repeat;
-    bool count = options->count || options->stats || options->has_verify;
+    bool count = options->count || options->audit || options->stats || options->has_verify;
     int code = tc_frame(run, &run->first, frames->renderer, false, talk);
     run->count = run->first;
     if (code >= 0)
@@ -99,7 +100,15 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
         return -1;
     code = tc_frame(run, &run->count, frames->renderer, true, talk);
     run->counted = code < 0;
-    return code;
+    if (code >= 0 || !options->audit)
+        return code;
+    if (run->count.audit_broken > 0) {
+        tc_talk_error(talk, "%s: in %lld of %lld visited cells other than two faces held the ray; please report it",
+                      options->input, (long long)run->count.audit_broken, (long long)run->count.steps);
+        return TC_EXIT_FAILED;
+    }
+    tc_talk_say(talk, "audit: in all %lld visited cells exactly two faces held the ray", (long long)run->count.steps);
+    return -1;
 }
 
 static int tc_verify_run(tc_render_run *run, tc_talk *talk)

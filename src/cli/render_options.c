@@ -144,6 +144,7 @@ static const tc_option tc_render_option[] = {
     {"--verify", 0, "N", "trace N pixels again in double precision and report the error", TC_OPTION_U64, AT(verify), HAS(has_verify), .low = 1, .high = 1e18},
     {"--repeat", 0, "N", "render N frames after one to warm up; times are medians", TC_OPTION_INT, AT(repeat), HAS(has_repeat), .low = 1, .high = 1000000},
     {"--count", 0, NULL, "count steps and fragments in one extra frame; on with --stats and --verify", TC_OPTION_FLAG, AT(count)},
+    {"--audit", 0, NULL, "let the walk check itself in the counted frame: exactly two faces of a visited cell hold the ray", TC_OPTION_FLAG, AT(audit)},
     {"--stats", 0, "FILE", "write what was measured as JSON; - for stdout", TC_OPTION_TEXT, AT(stats)},
     {"--seed", 0, "S", "of the pixels of --verify and of synthetic datasets; default 1", TC_OPTION_U64, AT(seed)},
     {"--iso", .kind = TC_OPTION_LATER},

@@ -42,7 +42,7 @@ typedef struct tc_render_command {
     uint64_t verify;
     bool has_verify;
     int repeat;
-    bool has_repeat, count;
+    bool has_repeat, count, audit;
     const char *stats;
     uint64_t seed;
 } tc_render_command;

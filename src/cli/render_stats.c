@@ -106,6 +106,7 @@ static json_t *tc_march_json(const tc_render_run *run)
     tc_json_measured_count(march, "layers", stats->layers);
     tc_json_measured_count(march, "rays", stats->rays);
     tc_json_measured_count(march, "rays_lost", stats->rays_lost);
+    tc_json_measured_count(march, "cells_broken", stats->audit_broken);
     tc_json_measured_count(march, "steps", stats->steps);
     tc_json_measured_count(march, "steps_max", stats->steps_max);
     if (stats->steps >= 0 && stats->rays > 0)
