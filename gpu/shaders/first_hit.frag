@@ -8,13 +8,22 @@ flat in int face_id;
 uniform isamplerBuffer faces; // a, b, c counter-clockwise from outside, and the cell behind
 
 #ifdef PEEL
-uniform isampler2D peel_key;   // bits of the depth, and 1 + the face id, of the previous entry
+uniform isampler2D peel_key;   // depth_key, and 1 + the face id, of the previous entry
 uniform sampler2D state_color; // to leave out rays that ended by opacity
 uniform float transmittance_stop;
 layout(location = 2) out ivec2 out_key;
 #endif
 layout(location = 0) out ivec4 out_walk;
 layout(location = 1) out vec2 out_at;
+
+// Depths as integers that sort as they do, each its own from 2^-51 to 2^12 half diagonals on both sides of 0 (nearer to 0
+// all are one): as many as fit between the smallest normal float and 1, so that the depth buffer holds them too.
+int depth_key(float z)
+{
+    const uint least = 76u << 23, most = 139u << 23; // the bits of 2^-51 and 2^12
+    int m = int(clamp(floatBitsToUint(abs(z)), least, most - 1u) - least);
+    return (64 << 23) + (z < 0.0 ? -1 - m : m);
+}
 
 void main()
 {
@@ -24,12 +33,18 @@ void main()
     int facing;
     if (!walk_face(w, ray, face.w, face.xyz, facing) || facing < 0)
         discard;
-    if (w.z < ray.eye)
+#ifdef ENTRY_AHEAD
+    if (w.z < ray.near)
         discard; // the signs hold for the whole line, the picture is what lies before the eye
-    float key = 0.5 + 0.5 * w.z / (1.0 + abs(w.z));
+#endif
+#ifdef CLIP_FAR
+    if (w.z >= ray.far)
+        discard; // nothing behind it is seen
+#endif
+    int key = depth_key(w.z);
 #ifdef PEEL
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    ivec2 mine = ivec2(floatBitsToInt(key), face_id + 1); // the bits of a positive float sort as it does
+    ivec2 mine = ivec2(key, face_id + 1);
     ivec2 before = texelFetch(peel_key, pixel, 0).xy;
     if (mine.x < before.x || (mine.x == before.x && mine.y <= before.y))
         discard;
@@ -37,7 +52,7 @@ void main()
         discard;
     out_key = mine;
 #endif
-    gl_FragDepth = key;
+    gl_FragDepth = intBitsToFloat(key); // the bits of a positive float sort as it does
     out_walk = ivec4(w.cell, w.id);
     out_at = vec2(w.z, w.s);
 }

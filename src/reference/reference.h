@@ -3,8 +3,9 @@
  * It shares no code with gpu/ and uses nothing of the mesh's preparation: no adjacency, no orientation, no order, no
  * imaginary tets; a mesh need not be prepared. A bounding volume hierarchy over the real tets finds every tet a ray
  * meets; each is judged alone from its four corners in double, with exact signs (trace.c); the parts are sorted by
- * entry depth and integrated exactly between the function's knots (segment.c). Overlapping tets are composited in entry
- * order.
+ * entry depth and integrated exactly between the function's knots (segment.c). Where tets overlap there is no order in
+ * space; runs of tets that follow each other through common faces are then composited whole, in the order of their
+ * entries, ties by tet (overlap.c).
  *
  * A tet with a scalar that is not finite at any corner (or its own, for cell data) is transparent, unless
  * tc_reference_set_nan_color gives it a colour: it adds to the length and to the segments but not to the picture. Tets
@@ -55,7 +56,8 @@ void tc_reference_segment(double out[4], const tc_transfer *tf, double s0, doubl
  * channel, float against double. worst_x, worst_y: the image's column and row (row 0 at the top). rays_lost stays 0.
  * Ill-posed rays are counted and left out of max, p999 and mean: their reference colour
  * moves by more than 1/1020 in a channel when the ray is shifted by 2^-22 of the diagonal to any of four sides or as
- * far along both to any of four corners, or all scalars by 2^-22 of their range up or down. Only rays whose error
+ * far along both to any of four corners, all scalars by 2^-22 of their range up or down, or, where
+ * tets overlap, runs of them by 2^-22 of the diagonal against each other. Only rays whose error
  * exceeds 1/1020 are asked: others could not raise the maximum above it. A channel that is not finite counts as an
  * error of FLT_MAX and is never ill-posed. Errors: TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
 tc_status tc_reference_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed,

@@ -61,21 +61,23 @@ static double distance(const double a[4], const double b[4])
 
 /* Moves the ray by SHIFT of the diagonal to the four sides, along u and v, and to the four corners between them (a ray
  * at a corner of the hull may stay in the mesh, or out of it, on all four sides), then the data by +-SHIFT of their
- * range. */
+ * range, then overlapping parts of the mesh against each other along the ray by up to SHIFT of the diagonal. */
 static tc_status judge(bool *ill, const check *c, const tc_line *line, const tc_reference_ray *ray, int worker)
 {
     *ill = false;
     static const double side[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
     const double by = SHIFT * 2 * c->reference->half_diagonal;
-    for (int k = 0; k < 10 && !*ill; k++) {
+    for (int k = 0; k < 12 && !*ill; k++) {
         tc_line moved = *line;
         double data = 0;
         if (k < 8) {
             tc_vec_mul_add(moved.base, line->base, by * side[k][0], line->u);
             tc_vec_mul_add(moved.base, moved.base, by * side[k][1], line->v);
-        } else {
+        } else if (k < 10) {
             data = k % 2 ? -SHIFT * c->range : SHIFT * c->range;
         }
+        if (k >= 10)
+            moved.unsure = k % 2 ? -by : by;
         tc_reference_ray other;
         tc_status status = tc_line_trace(&other, c->reference, c->tf, c->unit, &moved, data, worker);
         if (status != TC_OK)
