@@ -8,8 +8,8 @@
 
 #include <string.h>
 
-static const double EYE_NEAR = 2.0; /* half diagonals */
-static const double NO_EYE = 1e30;
+static const double EYE_NEAR = 2.0;      /* half diagonals */
+static const double SPHERE = 1.0 + 1e-6; /* holds the mesh: its half diagonal is 1 */
 
 static void to_mesh_space(double *out, const double *p, const double *center, double scale)
 {
@@ -42,20 +42,31 @@ static void scale_clip(float *clip)
         clip[i] /= largest;
 }
 
+/* What is seen, and what of it the mesh calls for: its centre lies `ahead` of the eye's plane, the rays' origins eye_t
+ * directions. */
+static void set_range(tc_frame *out, const tc_rays *rays, double ahead, double eye_t, double scale)
+{
+    double forward = tc_vec_dot(out->direction, rays->axis), near = rays->near * scale, far = rays->far * scale;
+    out->near_t = near / forward - eye_t;
+    out->far_t = far / forward - eye_t;
+    out->hidden = ahead < near - SPHERE || ahead > far + SPHERE;
+    bool cut = ahead <= near + SPHERE;
+    /* With the eye outside the mesh's sphere a line's part in the hull lies before the eye or behind it. */
+    out->ahead = cut && near == 0 && !rays->parallel && !out->eye_inside;
+    out->clip_near = cut && !out->ahead;
+    out->clip_far = ahead >= far - SPHERE;
+}
+
 void tc_frame_build(tc_frame *out, const tc_rays *rays, const double center[3], double scale)
 {
     memset(out, 0, sizeof *out);
     clip_matrix(out->clip, rays->clip, center, scale);
     scale_clip(out->clip);
 
-    /* The view's axis: the direction of the image's middle. */
-    double axis[3];
-    for (int k = 0; k < 3; k++)
-        axis[k] =
-            rays->direction[k] + 0.5 * rays->width * rays->direction_dx[k] + 0.5 * rays->height * rays->direction_dy[k];
-    tc_vec_normalize(axis);
-
-    out->eye_t = NO_EYE;
+    const double *axis = rays->axis;
+    double eye[3];
+    to_mesh_space(eye, rays->eye, center, scale);
+    double ahead = -tc_vec_dot(eye, axis), eye_t = 0; /* of the mesh's centre; of the origin, in directions */
     tc_vec_copy(out->direction, rays->direction);
     tc_vec_copy(out->direction_dx, rays->direction_dx);
     tc_vec_copy(out->direction_dy, rays->direction_dy);
@@ -67,33 +78,27 @@ void tc_frame_build(tc_frame *out, const tc_rays *rays, const double center[3], 
             out->point_dx[k] = rays->origin_dx[k] * scale;
             out->point_dy[k] = rays->origin_dy[k] * scale;
         }
-        double t = -tc_vec_dot(out->point, axis);
-        tc_vec_mul_add(out->point, out->point, t, axis);
+        tc_vec_mul_add(out->point, out->point, -tc_vec_dot(out->point, axis), axis);
+        eye_t = ahead;
         tc_vec_cross(out->up, out->point_dx, axis);
         if (tc_vec_dot(out->up, out->point_dy) < 0)
             for (int k = 0; k < 3; k++)
                 out->up[k] = -out->up[k];
     } else {
-        double eye[3];
-        to_mesh_space(eye, rays->eye, center, scale);
-        double distance = tc_vec_length(eye), ahead = -tc_vec_dot(eye, axis);
-        if (distance < EYE_NEAR) {
-            tc_vec_copy(out->point, eye);
-            out->eye_inside = distance < 1.0 + 1e-6;
-            if (!out->eye_inside)
-                out->eye_t = 0;
-        } else {
+        double distance = tc_vec_length(eye);
+        out->eye_inside = distance < SPHERE;
+        tc_vec_copy(out->point, eye);
+        if (distance >= EYE_NEAR) {
             /* dot(direction, axis) is the same for every pixel, so the point is affine in the pixel. */
-            double t = ahead / tc_vec_dot(out->direction, axis);
-            tc_vec_mul_add(out->point, eye, t, out->direction);
-            out->eye_t = t;
+            eye_t = ahead / tc_vec_dot(out->direction, axis);
+            tc_vec_mul_add(out->point, eye, eye_t, out->direction);
             for (int k = 0; k < 3; k++) {
-                out->point_dx[k] = t * out->direction_dx[k];
-                out->point_dy[k] = t * out->direction_dy[k];
+                out->point_dx[k] = eye_t * out->direction_dx[k];
+                out->point_dy[k] = eye_t * out->direction_dy[k];
             }
         }
-        out->behind = ahead < -1.0;
         tc_vec_copy(out->up, out->direction_dy);
     }
     tc_vec_normalize(out->up);
+    set_range(out, rays, ahead, eye_t, scale);
 }

@@ -10,10 +10,14 @@ typedef struct tc_frame {
     double point[3], point_dx[3], point_dy[3];             /* frame origin of pixel (X, Y), affine */
     double direction[3], direction_dx[3], direction_dy[3]; /* not normalised */
     double up[3];                                          /* not parallel to any ray */
-    double eye_t;    /* origin = eye + eye_t * direction; huge where no eye bounds the ray (parallel, or eye_inside) */
-    float clip[16];  /* mesh space → clip space, column-major */
-    bool eye_inside; /* the eye is in the mesh's sphere: rays start at depth 0 */
-    bool behind;     /* the whole mesh lies behind the eye: nothing is seen */
+    double near_t, far_t; /* what is seen lies between origin + near_t * direction and origin + far_t * direction */
+    float clip[16];       /* mesh space → clip space, column-major */
+    /* What of that the mesh's sphere calls for. The near plane is the eye's own where nothing is clipped. */
+    bool clip_near;  /* the near plane cuts the mesh: walks start at the entry before it, and segments are cut */
+    bool clip_far;   /* the far plane cuts the mesh: a walk ends there */
+    bool ahead;      /* the eye is outside the mesh, but its plane may cut it: entries behind it are none */
+    bool hidden;     /* the whole mesh lies before the near or beyond the far plane: nothing is seen */
+    bool eye_inside; /* perspective, the eye in the mesh's sphere: lines enter behind it */
 } tc_frame;
 
 /* center, scale: of the pack. */

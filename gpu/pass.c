@@ -35,7 +35,8 @@ void tc_pass_frame(const tc_gl *gl, GLuint program, const tc_frame *frame)
     set_dvec3(gl, program, "ray_direction", frame->direction);
     set_dvec3(gl, program, "ray_direction_dx", frame->direction_dx);
     set_dvec3(gl, program, "ray_direction_dy", frame->direction_dy);
-    tc_pass_float(gl, program, "ray_eye", frame->eye_t);
+    tc_pass_float(gl, program, "ray_near", frame->near_t);
+    tc_pass_float(gl, program, "ray_far", frame->far_t);
     gl->Uniform3f(gl->GetUniformLocation(program, "ray_up"), (float)frame->up[0], (float)frame->up[1],
                   (float)frame->up[2]);
 }

@@ -310,7 +310,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     tc_job_result result = {0};
     r->proposals.n = 0;
     memset(r->proposals.rect, 0, sizeof r->proposals.rect);
-    if (!rays.behind)
+    if (!rays.hidden)
         status = tc_propose(&r->proposals, &rays, options->width, options->height, r->face_corner, r->mesh.n_face, err);
     double ms_propose = tc_now_ms() - start;
     gl->Enable(GL_SCISSOR_TEST); /* nothing is done where no face is seen */

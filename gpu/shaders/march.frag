@@ -51,16 +51,23 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
     audit.broken += walk_holding_faces(w) == 2u ? 0u : 1u;
 #endif
     Segment segment = walk_step(w, ray);
-#ifdef EYE_CLIP
-    if (segment.z0 < 0.0) {
-        if (segment.z1 > 0.0) {
-            float f = segment.z0 / (segment.z0 - segment.z1);
-            segment.s0 = mix(segment.s0, segment.s1, f);
-            segment.z0 = 0.0;
+#ifdef CLIP_NEAR
+    if (segment.z0 < ray.near) {
+        if (segment.z1 > ray.near) {
+            segment.s0 = mix(segment.s0, segment.s1, (ray.near - segment.z0) / (segment.z1 - segment.z0));
+            segment.z0 = ray.near;
             integral_enter(integral, segment.s0);
         } else {
-            segment.z0 = segment.z1; // behind the eye
+            segment.z0 = segment.z1; // nothing of it is seen
         }
+    }
+#endif
+#ifdef CLIP_FAR
+    if (segment.z1 > ray.far) {
+        float f = clamp((ray.far - segment.z0) / (segment.z1 - segment.z0), 0.0, 1.0);
+        segment.s1 = mix(segment.s0, segment.s1, f);
+        segment.z1 = max(segment.z0, ray.far);
+        w.cell = -2; // the rest is not seen
     }
 #endif
 #ifdef AUDIT

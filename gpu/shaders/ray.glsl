@@ -3,12 +3,22 @@
 
 uniform dvec3 ray_point, ray_point_dx, ray_point_dy;             // affine in the pixel; see tc_frame_build
 uniform dvec3 ray_direction, ray_direction_dx, ray_direction_dy; // not normalised
-uniform float ray_eye; // the origin lies this many (unnormalised) directions beyond the eye
+#if defined(CLIP_NEAR) || defined(ENTRY_AHEAD)
+uniform float ray_near; // nothing is seen before the origin and this many (unnormalised) directions
+#endif
+#ifdef CLIP_FAR
+uniform float ray_far; // … nor beyond the origin and this many
+#endif
 uniform vec3 ray_up;
 
 struct Ray {
     vec3 o;       // origin of the frame: the point in the plane through the mesh's centre, or the eye when it is near
-    float eye;    // depth of the eye: a mesh that the eye is outside of is seen only beyond it
+#if defined(CLIP_NEAR) || defined(ENTRY_AHEAD)
+    float near;   // depth of the near plane, or of the eye
+#endif
+#ifdef CLIP_FAR
+    float far;    // depth of the far plane
+#endif
     vec3 u, v, d; // orthonormal; d is the direction; cross(u, v) = -d, so that faces seen from outside run counter-clockwise
 };
 
@@ -25,7 +35,12 @@ Ray ray_of_pixel(vec2 pixel)
     u /= length_u;
     precise vec3 v = vec3(u.y * d.z - u.z * d.y, u.z * d.x - u.x * d.z, u.x * d.y - u.y * d.x);
     ray.o = o;
-    ray.eye = -ray_eye * length_d;
+#if defined(CLIP_NEAR) || defined(ENTRY_AHEAD)
+    ray.near = ray_near * length_d;
+#endif
+#ifdef CLIP_FAR
+    ray.far = ray_far * length_d;
+#endif
     ray.u = u;
     ray.v = v;
     ray.d = d;

@@ -134,7 +134,17 @@ static void compilers_errors_name_another_line(void **state)
 }
 
 /* A job's features as bits. */
-enum { IMAGINARY = 1, PEEL = 2, CELLS = 4, INSIDE = 8, COUNT = 16, TABLE = 32, EXTEND = 64, N_FEATURES = 128 };
+enum {
+    IMAGINARY = 1,
+    PEEL = 2,
+    CELLS = 4,
+    INSIDE = 8,
+    COUNT = 16,
+    TABLE = 32,
+    EXTEND = 64,
+    FAR = 128,
+    N_FEATURES = 256
+};
 
 static tc_job job_of(int features, const tc_frame *frame)
 {
@@ -182,6 +192,8 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
                                PEEL,
                                CELLS,
                                INSIDE,
+                               FAR,
+                               INSIDE | FAR,
                                COUNT,
                                TABLE,
                                TABLE | EXTEND,
@@ -191,7 +203,7 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
                                N_FEATURES - 1};
     for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
         int f = each[i];
-        tc_frame frame = {.eye_inside = f & INSIDE};
+        tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
         tc_job job = job_of(f, &frame);
         GLuint march = get(cache, "screen.vert", "march.frag", &job);
         expect_uniform(gl, march, "mesh_real", f & IMAGINARY, f);
@@ -200,8 +212,12 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
         expect_uniform(gl, march, "tf_table", f & TABLE, f);
         expect_uniform(gl, march, "tf_nodes", !(f & TABLE), f);
         expect_uniform(gl, march, "peel_key", false, f);
+        expect_uniform(gl, march, "ray_near", f & INSIDE, f);
+        expect_uniform(gl, march, "ray_far", f & FAR, f);
         GLuint first = get(cache, "first_hit.vert", "first_hit.frag", &job);
         expect_uniform(gl, first, "peel_key", f & PEEL, f);
+        expect_uniform(gl, first, "ray_near", !(f & INSIDE), f); /* entries behind an eye outside */
+        expect_uniform(gl, first, "ray_far", f & FAR, f);
         expect_uniform(gl, first, "mesh_real", false, f);
         expect_uniform(gl, first, "tf_table", false, f);
         expect_uniform(gl, first, "tf_nodes", false, f);
@@ -215,14 +231,14 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
 static void a_plain_scene_defines_anything(void **state)
 {
     (void)state;
-    const tc_frame outside = {.eye_inside = false}, inside = {.eye_inside = true};
+    const tc_frame outside = {.clip_near = false}, inside = {.clip_near = true, .clip_far = true};
     char defines[512];
     tc_job job = job_of(TABLE, &outside);
     tc_job_defines(defines, sizeof defines, &job);
     assert_string_equal(defines, "");
     job = job_of(N_FEATURES - 1, &inside);
     tc_job_defines(defines, sizeof defines, &job);
-    static const char *const all[] = {"HAS_IMAGINARY", "PEEL", "CELL_DATA", "EYE_CLIP", "COUNT"};
+    static const char *const all[] = {"HAS_IMAGINARY", "PEEL", "CELL_DATA", "CLIP_NEAR", "CLIP_FAR", "COUNT"};
     for (int i = 0; i < 5; i++)
         assert_int_equal(count(defines, all[i]), 1);
 }
@@ -234,8 +250,8 @@ static void some_shader_does_not_compile(void **state)
     tc_program_cache *cache;
     if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
         skip();
-    for (int f = 0; f < N_FEATURES; f += 3) { /* odd steps meet every pair of features */
-        tc_frame frame = {.eye_inside = f & INSIDE};
+    for (int f = 0; f < N_FEATURES; f += 7) { /* odd steps meet every pair of features */
+        tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
         for (int way = 0; way < 4; way++) {
             tc_job job = job_of(f, &frame);
             job.thick = way & 1 ? 0.25 : 0;
@@ -245,7 +261,7 @@ static void some_shader_does_not_compile(void **state)
             get(cache, "first_hit.vert", "first_hit.frag", &job);
         }
     }
-    const tc_frame outside = {.eye_inside = false};
+    const tc_frame outside = {.clip_near = false};
     const tc_job none = {.frame = &outside};
     get(cache, "screen.vert", "lock.frag", &none);
     get(cache, "screen.vert", "copy.frag", &none);

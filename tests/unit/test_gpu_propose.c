@@ -120,7 +120,7 @@ static size_t check(const fixture *f, const tc_camera *camera)
         first[i + 1] += first[i];
     for (size_t i = 0; i + 1 < proposals.n; i++)
         assert_true(proposals.corner[i].face <= proposals.corner[i + 1].face);
-    for (int i = 0; i < WIDTH * HEIGHT && !frame.behind; i++) {
+    for (int i = 0; i < WIDTH * HEIGHT && !frame.hidden; i++) {
         double X = i % WIDTH + 0.5, Y = i / WIDTH + 0.5, o[3], d[3], u[3], v[3];
         for (int k = 0; k < 3; k++) {
             o[k] = frame.point[k] + X * frame.point_dx[k] + Y * frame.point_dy[k];
@@ -227,7 +227,7 @@ static void faces_that_look_away_are_proposed(void **state)
         camera.focal_point[a] = 2 * camera.position[a] - camera.focal_point[a];
     assert_int_equal(tc_rays_from_camera(&rays, &camera, 1024, 1024, NULL), TC_OK);
     tc_frame_build(&frame, &rays, f.pack.center, f.pack.scale);
-    assert_true(frame.behind);
+    assert_true(frame.hidden);
     tc_proposals_finish(&proposals);
     finish(&f);
 }
@@ -270,7 +270,7 @@ static void rays_of_the_frame_are_beside_the_cameras(void **state)
             tc_frame_build(&frame, &rays, f.pack.center, f.pack.scale);
             if (!parallel && fabs(distance[i] - 0.5) > 0.02)
                 assert_true(frame.eye_inside == (distance[i] < 0.5));
-            assert_false(frame.behind);
+            assert_false(frame.hidden);
             double tolerance = 1e-12 + 4e-15 * distance[i]; /* what an eye so far away keeps of its digits */
             for (int k = 0; k < 20; k++) {
                 double X = (k * 97) % 300 + 0.5, Y = (k * 61) % 200 + 0.5, origin[3], direction[3], o[3], d[3], off[3];
