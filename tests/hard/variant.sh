@@ -1,0 +1,51 @@
+#!/bin/sh
+# variant.sh NAME SHADERS OUT: copies of shader files with one thing broken on purpose, for TETCAST_SHADERS (gpu/program.h).
+# Each breaks a rule that docs/stability.md calls necessary; the catalogue must notice (broken.sh).
+#
+#   float-signs    the crosses are plain floats: neither exact signs nor a rule for ties
+#   no-ties        exact signs, but a true zero counts as negative
+#   ids-only       exact signs, a true zero is decided by vertex ids without moving the ray first
+#   float-weights  exact signs, but the weights of the exit point come from float
+#   eye-origin     the eye is the origin of the ray's frame, however far away
+#   peel-exit      the next entry is looked for behind the last exit, not behind the last entry
+#
+# Exit 0: OUT holds what differs. 2: no such variant, or it no longer applies to the sources.
+set -eu
+name=$1 shaders=$2 out=$3
+mkdir -p "$out"
+
+# edit FILE SED-SCRIPT COUNT: COUNT lines must change.
+edit() {
+    sed "$2" "$shaders/$1" >"$out/$1"
+    changed=$(diff "$shaders/$1" "$out/$1" | grep -c '^[<>]' || true)
+    [ "$changed" -eq "$3" ] || {
+        echo "variant.sh: $name changes $changed lines of $1 where it should change $3: it has to follow the sources" >&2
+        exit 2
+    }
+}
+
+case $name in
+float-signs)
+    # Nothing is ever unsure, so neither doubles nor ties are reached.
+    edit signs.glsl 's/^    sure = sure \&\& abs(c).*/    sure = sure;/' 2
+    ;;
+no-ties)
+    edit signs.glsl '/^        if (e == 0.0LF)$/d; /^            positive = p.y != q.y/d' 2
+    ;;
+ids-only)
+    edit signs.glsl 's/^            positive = p.y != q.y.*/            positive = i < j;/' 2
+    ;;
+float-weights)
+    edit signs.glsl 's/^const float SIGN_NEAR = .*/const float SIGN_NEAR = 4.8e-7;/' 2
+    ;;
+eye-origin)
+    edit ray.glsl 's/^    precise vec3 o = vec3(ray_point + x \* ray_point_dx + y \* ray_point_dy);/    double t = ray_eye < 1.0e29 ? double(ray_eye) : 0.0LF;\
+    precise vec3 o = vec3(ray_point + x * ray_point_dx + y * ray_point_dy -\
+                          t * (ray_direction + x * ray_direction_dx + y * ray_direction_dy));/
+        s/^    ray.eye = -ray_eye \* length_d;/    ray.eye = ray_eye < 1.0e29 ? 0.0 : -ray_eye * length_d;/' 6
+    ;;
+*)
+    echo "variant.sh: there is no variant $name" >&2
+    exit 2
+    ;;
+esac
