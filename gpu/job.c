@@ -22,10 +22,11 @@ void tc_job_bind_mesh(const tc_job *job, GLuint program)
 {
     const tc_gl *gl = job->gl;
     tc_pass_frame(gl, program, job->frame);
-    tc_pass_fetch(gl, program, "mesh_cells", 0, GL_R32I, job->mesh->cells.texture, job->software);
+    if (!job->planes)
+        tc_pass_fetch(gl, program, "mesh_cells", 0, GL_R32I, job->mesh->cells.texture, job->software);
     tc_pass_fetch(gl, program, "mesh_vertices", 1, GL_RGBA32F, job->mesh->vertices.texture, job->software);
     if (job->cell_data)
         tc_pass_texture(gl, program, "mesh_cell_scalar", 3, GL_TEXTURE_BUFFER, job->mesh->cell_scalar.texture);
-    if (job->has_imaginary)
+    if (job->has_imaginary && !job->planes)
         tc_pass_int(gl, program, "mesh_real", (int)job->mesh->n_real * TC_PACK_CELL_INTS);
 }

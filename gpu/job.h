@@ -36,6 +36,7 @@ typedef struct tc_job {
     bool count, audit; /* audit counts as well */
     bool software; /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
 } tc_job;
+    bool planes;   /* the stepper is the paper's arithmetic: stepper_planes.glsl */
 
 typedef struct tc_job_result {
     double ms_first_hit, ms_march;

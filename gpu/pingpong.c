@@ -11,10 +11,13 @@
 #include "gpu/first_hit.h"
 #include "gpu/pass.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { AHEAD = 2, UNIT_NODES = 2, UNIT_WALK = 4, UNIT_COLOR, UNIT_AT, UNIT_STEPS, UNIT_TF, UNIT_AUDIT };
+/* Of the paper's arithmetic, four each: as textures, and as images, of which there are fewer (stepper_planes.glsl). */
+enum { UNIT_PLANES = 12, IMAGE_PLANES = 4 };
 static const GLuint64 WAIT_NS = 1000000000ull; /* for a fence, at a time */
 enum { WAITS = 3600 };                         /* a pass over a large picture on a slow machine takes minutes */
 
@@ -22,7 +25,7 @@ typedef struct loop {
     const tc_job *job;
     tc_job_result *result;
     tc_error *err;
-    GLuint march, lock; /* programs */
+    GLuint march, lock, lost; /* programs; lost: only with the paper's arithmetic */
     GLuint lock_query;
     GLsync lock_fence;
     GLuint *pass_query; /* counting: one each pass */
@@ -53,25 +56,40 @@ static void bind_transfer(const tc_job *job, GLuint program)
     }
 }
 
-/* The programs of the loop, compiled if need be. */
-static tc_status get_programs(GLuint *march_program, GLuint *lock_program, const tc_job *job, tc_error *err)
+static void bind_planes(const tc_job *job, GLuint program)
 {
-    char defines[512];
+    const tc_gl *gl = job->gl;
+    const tc_gpu_mesh *mesh = job->mesh;
+    bool software = job->software;
+    GLuint unit = software ? IMAGE_PLANES : UNIT_PLANES;
+    tc_pass_fetch(gl, program, "planes_vertices", unit, GL_RGBA32F, mesh->planes_vertices.texture, software);
+    tc_pass_fetch(gl, program, "planes_normals", unit + 1, GL_RGBA32F, mesh->planes_normals.texture, software);
+    tc_pass_fetch(gl, program, "planes_neighbours", unit + 2, GL_R32I, mesh->planes_neighbours.texture, software);
+    tc_pass_fetch(gl, program, "planes_scalars", unit + 3, GL_RGBA32F, mesh->planes_scalars.texture, software);
+}
+
+/* The programs of the loop, compiled if need be. */
+static tc_status get_programs(loop *l)
+{
+    const tc_job *job = l->job;
+    char defines[512], alias[128];
     tc_job_defines(defines, sizeof defines, job);
-    const tc_program_source march = {"screen.vert", "march.frag", defines,
-                                     job->integrator == TC_INTEGRATOR_TABLE
-                                         ? "integrator.glsl=integrate_table.glsl"
-                                         : "integrator.glsl=integrate_integral.glsl"};
-    const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL};
-    tc_status status = tc_program_get(march_program, job->programs, &march, err);
-    return status == TC_OK ? tc_program_get(lock_program, job->programs, &lock, err) : status;
+    snprintf(alias, sizeof alias, "integrator.glsl=%s%s",
+             job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl" : "integrate_integral.glsl",
+             job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
+    const tc_program_source march = {"screen.vert", "march.frag", defines, alias};
+    const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL}, lost = {"screen.vert", "lost.frag", "", NULL};
+    tc_status status = tc_program_get(&l->march, job->programs, &march, l->err);
+    if (status == TC_OK)
+        status = tc_program_get(&l->lock, job->programs, &lock, l->err);
+    return status == TC_OK && job->planes ? tc_program_get(&l->lost, job->programs, &lost, l->err) : status;
 }
 
 tc_status tc_pingpong_compile(const tc_job *job, tc_error *err)
 {
-    GLuint unused[2];
+    loop l = {.job = job, .err = err};
     tc_status status = tc_first_hit_compile(job, err);
-    return status == TC_OK ? get_programs(&unused[0], &unused[1], job, err) : status;
+    return status == TC_OK ? get_programs(&l) : status;
 }
 
 /* Binds what the march reads; again after each first hit, which uses the same units. */
@@ -79,11 +97,13 @@ static tc_status prepare_march(loop *l)
 {
     const tc_job *job = l->job;
     const tc_gl *gl = job->gl;
-    tc_status status = get_programs(&l->march, &l->lock, job, l->err);
+    tc_status status = get_programs(l);
     if (status != TC_OK)
         return status;
     gl->UseProgram(l->march);
     tc_job_bind_mesh(job, l->march);
+    if (job->planes)
+        bind_planes(job, l->march);
     bind_transfer(job, l->march);
     tc_pass_int(gl, l->march, "steps_per_pass", job->steps_per_pass);
     tc_pass_float(gl, l->march, "length_unit", job->length_unit);
@@ -232,6 +252,22 @@ static tc_status march_layer(loop *l)
 
 static tc_status read_fragments(loop *l)
 {
+/* Rays of this layer that the paper's arithmetic gave up. */
+static int64_t count_given_up(loop *l)
+{
+    const tc_gl *gl = l->job->gl;
+    GLuint64 n = 0;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, l->job->state->lock_framebuffer);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->UseProgram(l->lost);
+    tc_pass_texture(gl, l->lost, "state_walk", UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[0].walk);
+    gl->BeginQuery(GL_SAMPLES_PASSED, l->lock_query);
+    tc_pass_screen(gl);
+    gl->EndQuery(GL_SAMPLES_PASSED);
+    gl->GetQueryObjectui64v(l->lock_query, GL_QUERY_RESULT, &n);
+    return (int64_t)n;
+}
+
     const tc_gl *gl = l->job->gl;
     l->result->fragments = tc_alloc((size_t)l->result->passes, sizeof *l->result->fragments);
     if (!l->result->fragments)
@@ -265,7 +301,9 @@ tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err
         if (status != TC_OK || out->layers == before)
             break; /* no ray entered */
         if (l.open > 0) {
-            out->rays_lost = l.open;
+            out->rays_lost += l.open;
+        if (job->planes) /* with peeling, a ray counts for each entry from which it is lost */
+            out->rays_lost += count_given_up(&l);
             break;
         }
         if (!job->peel)

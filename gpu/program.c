@@ -50,13 +50,14 @@ static int file_index(const char *name, size_t n)
     return -1;
 }
 
-/* alias "from=to": gives the index of `to` where name is `from`. */
+/* alias "from=to from=to": gives the index of `to` where name is `from`. */
 static int resolve(const assembly *a, const char *name, size_t n)
 {
-    if (a->alias) {
-        const char *equal = strchr(a->alias, '=');
-        if (equal && (size_t)(equal - a->alias) == n && strncmp(a->alias, name, n) == 0)
-            return file_index(equal + 1, strlen(equal + 1));
+    for (const char *pair = a->alias; pair && *pair; pair += strspn(pair, " ")) {
+        size_t length = strcspn(pair, " "), from = strcspn(pair, "=");
+        if (from < length && from == n && strncmp(pair, name, n) == 0)
+            return file_index(pair + from + 1, length - from - 1);
+        pair += length;
     }
     return file_index(name, n);
 }

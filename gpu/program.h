@@ -11,8 +11,9 @@ typedef struct tc_shader_file {
 /* Every shader file; {NULL, NULL} ends the list. */
 extern const tc_shader_file tc_shader_files[];
 
-/* What a program is made of. `defines` are lines such as "#define PEEL\n" (may be ""); `alias` is one pair of include
- * names, "integrator.glsl=integrate_table.glsl" (the first is read as the second), or NULL. */
+/* What a program is made of. `defines` are lines such as "#define PEEL\n" (may be ""); `alias` is pairs of include
+ * names, "integrator.glsl=integrate_table.glsl stepper.glsl=stepper_planes.glsl" (the first of each is read as the
+ * second), or NULL. */
 typedef struct tc_program_source {
     const char *vertex, *fragment;
     const char *defines;
@@ -30,7 +31,8 @@ double tc_program_cache_ms(const tc_program_cache *cache);
 void tc_program_cache_destroy(tc_program_cache **cache);
 
 /* The text of one shader stage: version line, defines, the file with #include resolved once each. malloc'd. `alias`
- * replaces one include name by another ("integrator.glsl=integrate_table.glsl"). Errors: TC_E_GL, TC_E_MEMORY. */
+ * replaces include names by others ("integrator.glsl=integrate_table.glsl", with a space between two such pairs).
+ * Errors: TC_E_GL, TC_E_MEMORY. */
 tc_status tc_program_text(char **out, const char *file, const char *defines, const char *alias, tc_error *err);
 
 #endif

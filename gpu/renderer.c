@@ -30,6 +30,7 @@ struct tc_gpu_renderer {
     uint64_t mesh_serial, scalar_serial; /* of what is uploaded; 0: nothing */
     tc_gpu_mesh mesh;
     float *face_corner; /* kept from the pack for proposing first hits */
+    bool planes;                         /* and for which stepper */
     tc_pack_extent extent;
     double center[3], scale, scalar_lo, scalar_hi, ms_pack;
 
@@ -91,10 +92,10 @@ const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer)
     return renderer->context;
 }
 
-static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, tc_render_stats *stats, tc_error *err)
+static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, bool planes, tc_render_stats *stats, tc_error *err)
 {
     const tc_gl *gl = &r->context->gl;
-    if (r->mesh_serial == mesh->serial && r->scalar_serial == mesh->scalar_serial)
+    if (r->mesh_serial == mesh->serial && r->scalar_serial == mesh->scalar_serial && r->planes == planes)
         return TC_OK;
     tc_gpu_mesh_finish(&r->mesh, gl);
     r->mesh_serial = r->scalar_serial = 0;
@@ -102,10 +103,15 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, tc_render_
     tc_status status = tc_pack_build(&pack, mesh, err);
     if (status != TC_OK)
         return status;
-    status = tc_gpu_mesh_upload(&r->mesh, gl, &pack, err);
+    tc_pack_planes table1 = {0};
+    if (planes)
+        status = tc_pack_planes_build(&table1, mesh, &pack, err);
+    if (status == TC_OK)
+        status = tc_gpu_mesh_upload(&r->mesh, gl, &pack, planes ? &table1 : NULL, err);
     if (status == TC_OK) {
         memcpy(r->center, pack.center, sizeof r->center);
         r->scale = pack.scale;
+        r->planes = planes;
         r->extent = pack.extent;
         r->scalar_lo = pack.scalar_lo;
         r->scalar_hi = pack.scalar_hi;
@@ -114,11 +120,12 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, tc_render_
         free(r->face_corner);
         r->face_corner = pack.face_corner;
         pack.face_corner = NULL;
-        stats->ms_pack = pack.ms;
+        stats->ms_pack = pack.ms + table1.ms;
         stats->ms_upload = r->mesh.ms;
     }
     tc_pack_finish(&pack);
     return status;
+    tc_pack_planes_finish(&table1);
 }
 
 static tc_status ensure_state(tc_gpu_renderer *r, const tc_render_options *options, bool peeling, tc_error *err)
@@ -223,10 +230,12 @@ static void fill_stats(tc_render_stats *stats, tc_gpu_renderer *r, const tc_job 
     snprintf(stats->gl_renderer, sizeof stats->gl_renderer, "%s", r->context->gl.renderer);
     snprintf(stats->gl_version, sizeof stats->gl_version, "%d.%d", r->context->gl.major, r->context->gl.minor);
     snprintf(stats->driver, sizeof stats->driver, "pingpong");
-    snprintf(stats->stepper, sizeof stats->stepper, "signs");
+    snprintf(stats->stepper, sizeof stats->stepper, "%s", job->planes ? "planes" : "signs");
     snprintf(stats->integrator, sizeof stats->integrator, "%s",
              job->integrator == TC_INTEGRATOR_TABLE ? "table" : "integral");
-    stats->gpu_bytes_mesh = (double)(r->mesh.cells.bytes + r->mesh.vertices.bytes);
+    stats->gpu_bytes_mesh =
+        (double)(r->mesh.cells.bytes + r->mesh.vertices.bytes + r->mesh.planes_vertices.bytes +
+                 r->mesh.planes_normals.bytes + r->mesh.planes_neighbours.bytes + r->mesh.planes_scalars.bytes);
     stats->gpu_bytes_other =
         (double)(r->mesh.faces.bytes + r->mesh.cell_scalar.bytes + r->proposals.n * sizeof *r->proposals.corner);
     stats->gpu_bytes_table = (double)r->transfer.textures.bytes;
@@ -259,7 +268,8 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl->DepthRange(0, 1);
 
-    status = ensure_mesh(r, mesh, stats, err);
+    bool planes = options->stepper == TC_STEPPER_PLANES;
+    status = ensure_mesh(r, mesh, planes, stats, err);
     if (status == TC_OK)
         status = ensure_state(r, options, peel, err);
     tc_job job = {.gl = gl, .programs = r->programs, .state = &r->state, .mesh = &r->mesh};
@@ -297,6 +307,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.screen_array = r->vertex_array[0];
     job.hit_array = r->vertex_array[1];
     job.hit_buffer = r->hit_buffer;
+    job.planes = planes;
 
     if (job.count) { /* steps are read as a whole */
         const GLuint none[4] = {0, 0, 0, 0};
@@ -335,9 +346,14 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     } else {
         free(result.fragments);
     }
-    if (status == TC_OK && job.audit)
+    if (status == TC_OK && job.audit && !planes) /* planes are not said to hold the ray */
         status = count_broken(stats, r, err);
-    if (status == TC_OK && result.rays_lost > 0)
+    if (status == TC_OK && result.rays_lost > 0 && planes)
+        status = tc_fail(err, TC_E_LOST,
+                         "%lld of %lld rays were lost by the stepper 'planes', the arithmetic of the paper, which is here "
+                         "to be compared with; the stepper 'signs' loses none",
+                         (long long)result.rays_lost, (long long)result.rays);
+    else if (status == TC_OK && result.rays_lost > 0)
         status =
             tc_fail(err, TC_E_LOST, "%lld of %lld rays were lost; the picture is not to be trusted, please report it",
                     (long long)result.rays_lost, (long long)result.rays);

@@ -34,7 +34,25 @@ static void finish_buffer(tc_texture_buffer *b, const tc_gl *gl)
     memset(b, 0, sizeof *b);
 }
 
-tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, tc_error *err)
+static tc_status upload_planes(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack_planes *planes, tc_error *err)
+{
+    size_t n = planes->n_cell;
+    tc_status status = upload_buffer(&out->planes_vertices, gl, planes->vertex, 4 * n, 16, GL_RGBA32F,
+                                     "uploading the cells' vertices", err);
+    if (status == TC_OK)
+        status = upload_buffer(&out->planes_normals, gl, planes->normal, 4 * n, 16, GL_RGBA32F,
+                               "uploading the faces' normals", err);
+    if (status == TC_OK)
+        status = upload_buffer(&out->planes_neighbours, gl, planes->neighbour, 4 * n, 4, GL_R32I,
+                               "uploading the cells' neighbours", err);
+    if (status == TC_OK)
+        status = upload_buffer(&out->planes_scalars, gl, planes->scalar, n, 16, GL_RGBA32F,
+                               "uploading the cells' gradients", err);
+    return status;
+}
+
+tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, const tc_pack_planes *planes,
+                             tc_error *err)
 {
     double start = tc_now_ms();
     memset(out, 0, sizeof *out);
@@ -42,8 +60,9 @@ tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *p
     out->n_real = pack->n_real;
     out->n_vertex = pack->n_vertex;
     out->n_face = pack->n_face;
-    tc_status status = upload_buffer(&out->cells, gl, pack->cell, pack->n_cell * TC_PACK_CELL_INTS, 4, GL_R32I,
-                                     "uploading the cells", err);
+    tc_status status = planes ? upload_planes(out, gl, planes, err)
+                              : upload_buffer(&out->cells, gl, pack->cell, pack->n_cell * TC_PACK_CELL_INTS, 4, GL_R32I,
+                                              "uploading the cells", err);
     if (status == TC_OK)
         status = upload_buffer(&out->vertices, gl, pack->vertex, pack->n_vertex, 16, GL_RGBA32F,
                                "uploading the vertices", err);
@@ -87,6 +106,10 @@ tc_status tc_gpu_table_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_ta
     for (int k = 0; k < 3; k++)
         if (table->size[k] > gl->max_texture_3d)
             return tc_fail(err, TC_E_ARG,
+    finish_buffer(&mesh->planes_vertices, gl);
+    finish_buffer(&mesh->planes_normals, gl);
+    finish_buffer(&mesh->planes_neighbours, gl);
+    finish_buffer(&mesh->planes_scalars, gl);
                            "a table %d entries wide is too large for %s (%d); use a smaller --table-size",
                            table->size[k], gl->renderer, gl->max_texture_3d);
     GLenum internal = table->format == TC_TABLE_8 ? GL_RGBA8 : table->format == TC_TABLE_16F ? GL_RGBA16F : GL_RGBA32F;

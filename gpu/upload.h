@@ -3,7 +3,7 @@
 #define TC_GPU_UPLOAD_H
 
 #include "gpu/gl.h"
-#include "gpu/pack.h"
+#include "gpu/pack_planes.h"
 #include "transfer_functions/running.h"
 #include "transfer_functions/table.h"
 
@@ -15,12 +15,15 @@ typedef struct tc_texture_buffer {
 
 typedef struct tc_gpu_mesh {
     tc_texture_buffer cells, vertices, faces, cell_scalar;
+    tc_texture_buffer planes_vertices, planes_normals, planes_neighbours, planes_scalars; /* tc_pack_planes */
     size_t n_cell, n_real, n_vertex, n_face;
     double ms;
 } tc_gpu_mesh;
 
-/* Errors: TC_E_MEMORY (with the figure needed), TC_E_GL. */
-tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, tc_error *err);
+/* planes: NULL, or what the stepper of the paper's arithmetic reads; it stands in for the cells' records, which stay away
+ * then. Errors: TC_E_MEMORY (with the figure needed), TC_E_GL. */
+tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, const tc_pack_planes *planes,
+                             tc_error *err);
 void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl);
 
 /* A transfer function's textures: `table` (3-D) or `nodes` (running integrals: two texels a node, point and

@@ -73,6 +73,14 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
         return tc_fail(err, TC_E_ARG, "table format %d is unknown; there are %d (auto), %d, %d and %d bits a channel",
                        (int)options->table_format, TC_TABLE_AUTO, TC_TABLE_8, TC_TABLE_16F, TC_TABLE_32F);
     }
+    switch ((int)options->stepper) {
+    case TC_STEPPER_SIGNS:
+    case TC_STEPPER_PLANES:
+        break;
+    default:
+        return tc_fail(err, TC_E_ARG, "stepper %d is unknown; there are %d (signs) and %d (planes)",
+                       (int)options->stepper, TC_STEPPER_SIGNS, TC_STEPPER_PLANES);
+    }
     *unit = options->unit_distance > 0 ? options->unit_distance : tc_default_unit_distance(mesh);
     return tc_rays_from_camera(rays, camera, options->width, options->height, err);
 }
@@ -231,6 +239,9 @@ tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *rendere
     if (status != TC_OK && status != TC_E_LOST)
         tc_image_destroy(out);
     return status;
+    if (status == TC_OK && options->stepper != TC_STEPPER_SIGNS && !renderer->gpu)
+        status = tc_fail(err, TC_E_ARG, "the driver '%s' does not walk from cell to cell: the stepper 'planes' needs the "
+                         "driver 'pingpong'", renderer->driver->name);
 }
 
 tc_status tc_render_audit(tc_audit_ray *out, tc_renderer *renderer, tc_error *err)

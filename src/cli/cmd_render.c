@@ -48,12 +48,14 @@ static void tc_render_set(tc_render_options *out, const tc_render_command *optio
     out->table_format = (tc_table_format)options->table_format;
     out->unit_distance = options->unit_distance;
     out->opacity_stop = options->opacity_stop;
+    out->stepper = (tc_stepper)options->stepper;
     out->steps_per_pass = options->steps_per_pass;
     out->z_update_every = options->z_update_every;
     out->count = false;
 }
 
-/* One frame into run->image. -1, or an exit code; a lost ray is an error after its numbers are kept in *stats. */
+/* One frame into run->image. -1, or an exit code; a lost ray is an error after its numbers are kept in *stats. Rays that
+ * the paper's arithmetic loses are what it is there to show: the run goes on to its end. */
 static int tc_frame(tc_render_run *run, tc_render_stats *stats, tc_renderer *renderer, bool count, tc_talk *talk)
 {
     tc_error err = {0};
@@ -65,6 +67,10 @@ static int tc_frame(tc_render_run *run, tc_render_stats *stats, tc_renderer *ren
         tc_render(&run->image, stats, renderer, run->mesh, run->tf, &run->camera, &render, &talk->log, &err);
     return status ? tc_talk_status(talk, status, &err) : -1;
 }
+    if (status == TC_E_LOST && render.stepper == TC_STEPPER_PLANES) {
+        run->lost = err;
+        return -1;
+    }
 
 /* The frames to time, after one to warm up when --repeat was given; then the counted one. */
 static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
@@ -231,6 +237,8 @@ int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, ch
         return code;
     frames.frame = calloc((size_t)options.repeat, 4 * sizeof(double));
     if (!frames.frame) {
+    if (code < 0 && run->lost.code)
+        code = tc_talk_status(talk, run->lost.code, &run->lost);
         tc_talk_error(talk, "memory ran out");
         return TC_EXIT_FAILED;
     }

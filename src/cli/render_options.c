@@ -37,6 +37,11 @@ static const tc_choice tc_gl_choice[] = {
 static const tc_choice tc_driver_choice[] = {
     {"auto", 0, false}, {"pingpong", 1, false}, {"reference", 2, false}, {"compute", 3, true}, {NULL, 0, false},
 };
+static const tc_choice tc_stepper_choice[] = {
+    {"signs", TC_STEPPER_SIGNS, false},
+    {"planes", TC_STEPPER_PLANES, false},
+    {NULL, 0, false},
+};
 static const tc_choice tc_auto_choice[] = {
     {"auto", 0, false},
     {NULL, 0, false},
@@ -154,6 +159,7 @@ static const tc_option tc_render_option[] = {
     {"--shell", .kind = TC_OPTION_LATER},
 };
 /* clang-format on */
+    {"--stepper", 0, "signs|planes", "how a ray leaves a cell: exact signs, or, to compare, the paper's plane equations, which lose rays", TC_OPTION_CHOICE, AT(stepper), .choice = tc_stepper_choice},
 
 const tc_command tc_command_render = {
     .name = "render",
@@ -241,6 +247,14 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
     if (code < 0 && out->stats)
         code = tc_output_check(out->stats, talk);
     return code;
+    if (out->stepper == TC_STEPPER_PLANES && !strcmp(out->driver, "reference")) {
+        tc_talk_error(talk, "--stepper planes walks from cell to cell, which --driver reference does not: leave one out");
+        return TC_EXIT_USAGE;
+    }
+    if (out->stepper == TC_STEPPER_PLANES && out->audit) {
+        tc_talk_error(talk, "--audit counts faces that hold the ray, which --stepper planes does not ask: leave one out");
+        return TC_EXIT_USAGE;
+    }
 }
 
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)

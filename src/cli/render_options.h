@@ -45,6 +45,7 @@ typedef struct tc_render_command {
     bool has_repeat, count, audit;
     const char *stats;
     uint64_t seed;
+    int stepper; /* tc_stepper */
 } tc_render_command;
 
 /* Defaults, parsing, checks that need no mesh. -1 to go on, else the exit code. */

@@ -30,6 +30,7 @@ typedef struct tc_render_run {
     int frames; /* timed ones */
     tc_verify_result verify;
     bool verified, counted;
+    tc_error lost; /* rays that the stepper "planes" lost: said at the end; code TC_OK where there are none */
 } tc_render_run;
 
 /* New reference, or NULL when memory ran out. */

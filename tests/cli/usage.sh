@@ -45,6 +45,9 @@ for case in \
     "exclude each other|render a --cell-data --point-data" \
     "the nearest is 'table'|render a --integrator tabel" \
     "the nearest is 'osmesa'|render a --gl mesa" \
+    "the nearest is 'planes'|render a --stepper plane" \
+    "--driver reference does not|render a --stepper planes --driver reference" \
+    "--stepper planes does not|render a --stepper planes --audit" \
     "the nearest is 'convexify'|render a --reentry convex" \
     "each from 2 to 1024|render a --table-size 1,128,256" \
     "--table-size takes|render a --table-size 128,128" \
