@@ -4,7 +4,14 @@
 #include "gpu/watch.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+bool tc_gl_setting(const char *name)
+{
+    const char *value = getenv(name);
+    return value && *value && strcmp(value, "0") != 0;
+}
 
 tc_status tc_gl_load(tc_gl *gl, tc_get_proc get_proc, tc_error *err)
 {
@@ -31,6 +38,7 @@ tc_status tc_gl_load(tc_gl *gl, tc_get_proc get_proc, tc_error *err)
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &gl->max_texture_size);
     gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &gl->max_texture_3d);
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &gl->max_texture_buffer);
+    gl->poison = tc_gl_setting("TETCAST_GL_POISON");
     return TC_OK;
 }
 

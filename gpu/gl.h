@@ -109,11 +109,14 @@ typedef struct tc_gl {
     char renderer[128], version[64];
     int major, minor;
     GLint max_texture_size, max_texture_3d, max_texture_buffer;
-    bool poison;               /* TETCAST_GL_POISON: what is allocated is filled with NaN (tc_gl_poison) */
-    tc_gl_watch *watch;        /* NULL but where GL's debug output is listened to (watch.h) */
+    bool poison;          /* TETCAST_GL_POISON: what is not written yet holds NaN (tc_state_poison, upload.c) */
+    tc_gl_watch *watch;   /* NULL but where GL's debug output is listened to (watch.h) */
 } tc_gl;
 
 typedef void *(*tc_get_proc)(const char *name);
+
+/* A developer's setting: the environment variable is there, and neither empty nor 0. */
+bool tc_gl_setting(const char *name);
 
 /* Fills the table for the context that is current. Errors: TC_E_GL, naming the missing function or the version found.
  */

@@ -46,6 +46,32 @@ static tc_status framebuffer(GLuint *out, const tc_state *s, const tc_gl *gl, co
     return TC_OK;
 }
 
+/* NaN as float, and nothing meant as an integer. */
+static void poison_color(const tc_gl *gl, GLuint framebuffer_name, GLint buffer, GLenum type)
+{
+    const GLuint bits[4] = {0x7fc00000u, 0x7fc00000u, 0x7fc00000u, 0x7fc00000u};
+    GLfloat floats[4];
+    GLint ints[4];
+    memcpy(floats, bits, sizeof floats);
+    memcpy(ints, bits, sizeof ints);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_name);
+    if (type == GL_FLOAT)
+        gl->ClearBufferfv(GL_COLOR, buffer, floats);
+    else if (type == GL_INT)
+        gl->ClearBufferiv(GL_COLOR, buffer, ints);
+    else
+        gl->ClearBufferuiv(GL_COLOR, buffer, bits);
+}
+
+static void poison_depth(const tc_gl *gl, GLuint framebuffer_name)
+{
+    const GLfloat near_depth = 0;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_name);
+    gl->DepthMask(GL_TRUE);
+    gl->ClearBufferfv(GL_DEPTH, 0, &near_depth);
+    gl->DepthMask(GL_FALSE);
+}
+
 tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options *options, bool peeling, tc_error *err)
 {
     int width = options->width, height = options->height;
@@ -93,6 +119,8 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options 
         s->bytes += pixels * 16;
         status = framebuffer(&s->result_framebuffer, s, gl, &s->result, 1, 0, err);
     }
+    if (status == TC_OK && gl->poison)
+        poison_color(gl, s->result_framebuffer, 0, GL_FLOAT);
     if (status == TC_OK)
         status = tc_gl_check(gl, "making the ray state", err);
     if (status != TC_OK)
@@ -115,4 +143,17 @@ void tc_state_finish(tc_state *s, const tc_gl *gl)
     gl->DeleteTextures(1, &s->result);
     gl->DeleteFramebuffers(1, &s->result_framebuffer);
     memset(s, 0, sizeof *s);
+}
+
+void tc_state_poison(const tc_state *s, const tc_gl *gl)
+{
+    static const GLenum types[5] = {GL_INT, GL_FLOAT, GL_FLOAT, GL_UNSIGNED_INT, GL_UNSIGNED_INT};
+    int n = s->auditing ? 5 : s->counting ? 4 : 3;
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < n; k++)
+            poison_color(gl, s->set[i].framebuffer, k, types[k]);
+    for (int i = 0; i < 2 && s->peeling; i++)
+        poison_color(gl, s->hit_framebuffer[i], 2, GL_INT);
+    poison_depth(gl, s->hit_framebuffer[0]);
+    poison_depth(gl, s->lock_framebuffer);
 }

@@ -16,8 +16,7 @@ struct tc_gl_watch {
 
 bool tc_gl_watch_wanted(void)
 {
-    const char *value = getenv("TETCAST_GL_DEBUG");
-    return value && *value && strcmp(value, "0") != 0;
+    return tc_gl_setting("TETCAST_GL_DEBUG");
 }
 
 static const char *type_name(GLenum type)
