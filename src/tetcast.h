@@ -109,8 +109,11 @@ typedef struct tc_mesh_report {
     size_t zero_volume;          /* tets of zero volume, kept */
     size_t merged_vertices;      /* coincident points merged */
     size_t unused_vertices;      /* points no tet, of a file no cell, uses; dropped */
-    size_t unlinked_faces;       /* faces with three cells, or two on one side */
+    size_t unlinked_faces;       /* faces with three cells, or two on one side: treated as boundaries */
+    size_t faces_of_many;        /* of them, those with three cells or more */
+    size_t faces_one_side;       /* of them, those between two cells on one side, which overlap */
     size_t nonfinite_scalars;    /* NaN or Inf values */
+    size_t nonfinite_cells;      /* tets with such a value, at a corner or their own: transparent, or has_nan_color */
     bool convex;                 /* the real tets alone fill their hull */
     tc_reentry reentry;          /* what is in force: CONVEXIFY or PEEL */
     char reentry_why[256];       /* why not the asked way; "" if it is */

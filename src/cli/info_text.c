@@ -20,7 +20,7 @@ double tc_info_gpu_bytes(const tc_mesh_report *report)
 
 /* A count of the report, its key, and what it means to a user. */
 typedef struct tc_defect {
-    const char *key, *words;
+    const char *key, *words; /* words NULL: the rows below say it */
     size_t at;
 } tc_defect;
 
@@ -34,9 +34,15 @@ static const tc_defect tc_defect_list[] = {
     {"zero_volume", "tets have no volume; they stay, since they keep their neighbours joined", AT(zero_volume)},
     {"merged_vertices", "points coincided with another and were merged with it", AT(merged_vertices)},
     {"unused_vertices", "points belong to no cell and were dropped", AT(unused_vertices)},
-    {"unlinked_faces", "faces have three cells, or two on one side; rays leave and enter again there",
-     AT(unlinked_faces)},
+    {"unlinked_faces", NULL, AT(unlinked_faces)},
+    {"faces_of_many", "faces have three cells or more; they are treated as boundaries, where rays leave and enter again",
+     AT(faces_of_many)},
+    {"faces_one_side", "faces lie between two cells on one side, which overlap; they are treated as boundaries, and the "
+                       "cells composited in the order of entry",
+     AT(faces_one_side)},
     {"nonfinite_scalars", "values of the field are NaN or infinite", AT(nonfinite_scalars)},
+    {"nonfinite_cells", "tets have such a value and are transparent; render --nan-color shows them",
+     AT(nonfinite_cells)},
 };
 #undef AT
 #define TC_N_DEFECT (sizeof tc_defect_list / sizeof *tc_defect_list)
@@ -135,7 +141,7 @@ void tc_info_print(const tc_info *info)
         return;
     for (size_t i = 0; i < TC_N_DEFECT; i++) {
         size_t count = tc_defect_count(&info->report, i);
-        if (count) {
+        if (count && tc_defect_list[i].words) {
             printf("%-12s%zu %s\n", clean ? "defects" : "", count, tc_defect_list[i].words);
             clean = false;
         }

@@ -99,8 +99,35 @@ done:
     return status;
 }
 
+/* Points that TetGen added belong to its cells and lie within the bounds: others would only stretch the frame in which
+ * the casters round coordinates. */
+static tc_status judge_steiner(const filling *q, const double bounds[6], tc_error *err)
+{
+    if (q->n_steiner == 0)
+        return TC_OK;
+    uint8_t *used = tc_calloc(q->n_steiner, 1);
+    if (!used)
+        return tc_fail_memory(err, "the points that TetGen added", q->n_steiner, 1);
+    for (size_t i = 0; i < 4 * q->n_tet; i++)
+        if ((size_t)q->tet[i] >= q->n)
+            used[(size_t)q->tet[i] - q->n] = 1;
+    tc_status status = TC_OK;
+    for (size_t s = 0; s < q->n_steiner && status == TC_OK; s++) {
+        const double *p = q->point + 3 * (q->n + s);
+        if (!used[s])
+            status = tc_fail(err, TC_E_MESH, "TetGen added a point that none of its tetrahedra has");
+        for (int k = 0; k < 3 && status == TC_OK; k++) {
+            double x = q->frame.centre[k] + ldexp(p[k], q->frame.exponent);
+            if (!(x >= bounds[2 * k] && x <= bounds[2 * k + 1]))
+                status = tc_fail(err, TC_E_MESH, "TetGen added a point outside the mesh's bounds");
+        }
+    }
+    free(used);
+    return status;
+}
+
 /* Is the reply well formed, and are the boundary's points as they were sent? */
-static tc_status open_reply(filling *q, tc_error *err)
+static tc_status open_reply(filling *q, const double bounds[6], tc_error *err)
 {
     const tc_array *point = tc_reply_array(&q->reply, "point", TC_F64);
     const tc_array *tet = tc_reply_array(&q->reply, "tet", TC_I32);
@@ -126,7 +153,7 @@ static tc_status open_reply(filling *q, tc_error *err)
                     return tc_fail(err, TC_E_MESH, "TetGen's tetrahedron %zu repeats a point", t);
         }
     }
-    return TC_OK;
+    return judge_steiner(q, bounds, err);
 }
 
 /* next: the mesh with the imaginary tets, its arrays new; not linked yet. *n_flat: zero-volume ones among them. */
@@ -135,14 +162,15 @@ static tc_status join(tc_mesh *next, size_t *n_flat, const tc_mesh *m, const fil
 {
     size_t nv = m->n_vertex + q->n_steiner, nt = m->n_tet + q->n_tet;
     bool point_data = m->association != TC_CELL_DATA;
+    *n_flat = 0;
+    if (nv > INT32_MAX || nt > (size_t)1 << 29)
+        return tc_fail(err, TC_E_MESH, "with imaginary cells the mesh has %zu tetrahedra, too many for 32-bit ids", nt);
     *next = *m;
     next->n_vertex = nv, next->n_imaginary = q->n_tet;
     next->vertex = tc_alloc(nv, 3 * sizeof *next->vertex);
     next->scalar = tc_calloc(point_data ? nv : m->n_tet, sizeof *next->scalar);
     next->tet = tc_alloc(nt, 4 * sizeof *next->tet);
     next->neighbour = tc_alloc(nt, 4 * sizeof *next->neighbour);
-    if (nv > INT32_MAX || nt > (size_t)1 << 29)
-        return tc_fail(err, TC_E_MESH, "with imaginary cells the mesh has %zu tetrahedra, too many for 32-bit ids", nt);
     if (!next->vertex || !next->scalar || !next->tet || !next->neighbour)
         return tc_fail_memory(err, "imaginary cells", nt + nv, 32);
     memcpy(next->vertex, m->vertex, m->n_vertex * 3 * sizeof *m->vertex);
@@ -159,7 +187,6 @@ static tc_status join(tc_mesh *next, size_t *n_flat, const tc_mesh *m, const fil
     for (size_t i = 0; i < 4 * q->n_tet; i++)
         next->neighbour[4 * m->n_tet + i] = -1;
     tc_status status = tc_tets_order(tet, q->n_tet, next->vertex, m->report.bounds, threads, err);
-    *n_flat = 0;
     for (size_t t = 0; t < q->n_tet && status == TC_OK; t++) {
         int32_t *v = tet + 4 * t;
         const double *x = next->vertex;
@@ -187,7 +214,11 @@ static double volume_of(const tc_mesh *m, size_t begin, size_t end)
     return sum / 6;
 }
 
-/* Links the imaginary tets and judges the whole. */
+/* Links the imaginary tets and judges the whole. No cell has negative volume, every face but the outside's joins two
+ * cells on opposite sides, and the outside is one closed convex surface that goes around its middle once: then every
+ * point within it lies in one cell. (Passing through a face neither gains nor loses a cell, so all points that the
+ * outside does not separate lie in as many cells as it goes around them: 1 within, 0 beyond.) Overlaps, cells in real
+ * material and gaps cannot pass; the sum of volumes says the same about TetGen's own hull. */
 static tc_status link_and_judge(tc_mesh *next, size_t n_flat, const filling *q, int threads, tc_error *err)
 {
     tc_adjacency_result found;
@@ -238,7 +269,7 @@ tc_status tc_mesh_convexify(tc_mesh *m, const tc_boundary *b, double limit_s, in
     bool joined = false;
     tc_status status = ask(&q, m, b, limit_s, log, err);
     if (status == TC_OK)
-        status = open_reply(&q, err);
+        status = open_reply(&q, m->report.bounds, err);
     if (status == TC_OK) {
         joined = true;
         status = join(&next, &n_flat, m, &q, b, threads, err);

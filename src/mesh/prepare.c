@@ -10,8 +10,8 @@
 #include "mesh/repair.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Takes the zero-volume tets that will be dropped out of the count. */
 static void forget_flat(tc_mesh *m, const uint8_t *drop)
@@ -54,8 +54,30 @@ static tc_status link_mesh(tc_mesh *m, int threads, tc_error *err)
         }
     } while (found.duplicates > 0);
     free(duplicate);
+    r->faces_of_many = found.many, r->faces_one_side = found.one_side;
     r->unlinked_faces = found.many + found.one_side;
     return status;
+}
+
+/* Says what became of cells that do not fit together. Overlaps beyond these are not looked for: telling them all would
+ * cost more than the picture. */
+static void say_defects(const tc_log *log, const tc_mesh_report *r)
+{
+    static const char boundary[] = "treated as boundaries, where rays leave the mesh and enter again";
+    if (r->faces_of_many > 0)
+        tc_say(log, TC_WARNING,
+               "%zu faces have three cells or more, some of which must overlap: these faces are %s, and overlapping "
+               "cells are "
+               "composited in the order of entry",
+               r->faces_of_many, boundary);
+    if (r->faces_one_side > 0)
+        tc_say(
+            log, TC_WARNING,
+            "%zu faces lie between two cells on one side, which overlap: these faces are %s, and overlapping cells are "
+            "composited in the order of entry",
+            r->faces_one_side, boundary);
+    if (r->dropped_duplicate > 0)
+        tc_say(log, TC_INFO, "%zu cells are there more than once: the copies were dropped", r->dropped_duplicate);
 }
 
 static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const tc_log *log, tc_error *err)
@@ -105,7 +127,19 @@ static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const
     next.prepared = true;
     tc_mesh_finish_arrays(mesh);
     *mesh = next;
+    say_defects(log, &mesh->report);
     return TC_OK;
+}
+
+/* As much of a text as fits, in whole UTF-8 characters. */
+static void copy_text(char *out, size_t capacity, const char *text)
+{
+    size_t n = strlen(text);
+    if (n >= capacity)
+        for (n = capacity - 1; n > 0 && ((unsigned char)text[n] & 0xc0) == 0x80;)
+            n--;
+    memcpy(out, text, n);
+    out[n] = 0;
 }
 
 /* Lets rays cross gaps in the way that was asked for. The mesh is linked; imaginary tets it has are taken away first.
@@ -132,8 +166,8 @@ static tc_status fill_gaps(tc_mesh *m, const tc_prepare_options *o, const tc_log
     }
     tc_boundary_finish(&boundary);
     if (status != TC_OK) {
-        snprintf(r->reentry_why, sizeof r->reentry_why, "%.*s", (int)sizeof r->reentry_why - 1, own.text);
-        if (o->reentry == TC_REENTRY_CONVEXIFY || status == TC_E_MEMORY)
+        copy_text(r->reentry_why, sizeof r->reentry_why, own.text);
+        if (o->reentry == TC_REENTRY_CONVEXIFY)
             return tc_fail(err, status,
                            "the gaps of this mesh cannot be filled with imaginary cells: %s; use re-entry by "
                            "depth peeling",

@@ -1,11 +1,11 @@
 /* overlap.c: the order in which a ray sees cells that overlap: run by run, in the order of entry.
  *
  * Where cells do not overlap, the order of their entries is the order in space. Where they do there is none, and one is
- * defined: cells that the ray passes one after the other through common faces are a run; runs are seen whole, in the order
- * of their first entries. It is what a caster sees that walks from cell to cell and enters again where it left the mesh
- * (tetcast's peeling), but it is found here from the vertex ids of the faces that the ray passes, ray by ray. A face
- * joins two cells when no third one on the ray has it and the ray leaves one where it enters the other; faces of three cells
- * and of two cells on one side join nothing. */
+ * defined: cells that the ray passes one after the other through common faces are a run; runs are seen whole, in the
+ * order of their first entries. It is what a caster sees that walks from cell to cell and enters again where it left
+ * the mesh (tetcast's peeling), but it is found here from the vertex ids of the faces that the ray passes, ray by ray.
+ * A face joins two cells when no third one on the ray has it and the ray leaves one where it enters the other; faces of
+ * three cells and of two cells on one side join nothing. */
 #include "reference/trace.h"
 
 #include "core/memory.h"

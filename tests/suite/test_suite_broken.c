@@ -1,5 +1,5 @@
-/* test_suite_broken.c: non-manifold and broken meshes: each renders without a lost ray, as the reference defines it, and
- * what was done with it is counted and said. */
+/* test_suite_broken.c: non-manifold and broken meshes: each renders without a lost ray, as the reference defines it,
+ * and what was done with it is counted and said. */
 #include "suite.h"
 
 #include <stdio.h>
@@ -37,8 +37,8 @@ static double smooth(const double p[3])
     return sin(1.3 * p[0]) + cos(1.1 * p[1] + 0.4) + 0.7 * p[2];
 }
 
-/* n[0] x n[1] x n[2] cubes of the given edge, six Kuhn tets each, at `at`; `more` is added to the field. Gives the first
- * vertex: id(i, j, k) = first + (k (n[1] + 1) + j) (n[0] + 1) + i. */
+/* n[0] x n[1] x n[2] cubes of the given edge, six Kuhn tets each, at `at`; `more` is added to the field. Gives the
+ * first vertex: id(i, j, k) = first + (k (n[1] + 1) + j) (n[0] + 1) + i. */
 static int32_t add_block(soup *s, const double at[3], const int n[3], double edge, double more)
 {
     static const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
@@ -73,8 +73,8 @@ static soup *new_soup(void)
 
 static tc_mesh *mesh_of(const soup *s, tc_reentry reentry)
 {
-    const tc_mesh_arrays arrays = {s->n_vertex, &s->vertex[0][0], s->n_tet, &s->tet[0][0], s->scalar, TC_POINT_DATA,
-                                   "field"};
+    const tc_mesh_arrays arrays = {s->n_vertex, &s->vertex[0][0], s->n_tet, &s->tet[0][0],
+                                   s->scalar,   TC_POINT_DATA,    "field"};
     return suite_mesh(&arrays, reentry);
 }
 
@@ -84,8 +84,8 @@ enum { VIEWS = sizeof from / sizeof *from };
 /* Renders from several sides, perspective and parallel, and compares every pixel. */
 static void check_views(const char *what, const tc_mesh *mesh)
 {
-    static const tc_knot knot[] = {{-2, 0.1, 0.2, 0.9, 0.4}, {0, 0.9, 0.9, 0.2, 2.5}, {1, 0.9, 0.1, 0.1, 0.3},
-                                   {4, 0.2, 0.9, 0.3, 3}};
+    static const tc_knot knot[] = {
+        {-2, 0.1, 0.2, 0.9, 0.4}, {0, 0.9, 0.9, 0.2, 2.5}, {1, 0.9, 0.1, 0.1, 0.3}, {4, 0.2, 0.9, 0.3, 3}};
     tc_transfer *tf = suite_function(knot, 4);
     tc_render_options options = suite_options(SIZE, SIZE);
     options.unit_distance = suite_diagonal(mesh) / 4;
@@ -205,7 +205,10 @@ static void thin_plates_are_seen_in_the_order_of_the_file(void **state)
         int32_t c = add_vertex(s, -2, 2, z, value), d = add_vertex(s, -2, -2, z + 1e-9, value);
         add_tet(s, a, b, c, d);
     }
-    static const tc_knot knot[] = {{0, 0, 0, 0, 0}, {1, 0.9, 0.1, 0.1, 4e8}, {2, 0.1, 0.9, 0.1, 4e8}, {3, 0.1, 0.1, 0.9, 4e8},
+    static const tc_knot knot[] = {{0, 0, 0, 0, 0},
+                                   {1, 0.9, 0.1, 0.1, 4e8},
+                                   {2, 0.1, 0.9, 0.1, 4e8},
+                                   {3, 0.1, 0.1, 0.9, 4e8},
                                    {4, 0.9, 0.9, 0.1, 4e8}};
     tc_transfer *tf = suite_function(knot, 5);
     tc_mesh *mesh = mesh_of(s, TC_REENTRY_PEEL);
@@ -224,9 +227,12 @@ static void thin_plates_are_seen_in_the_order_of_the_file(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_face_of_three_cells), cmocka_unit_test(two_on_one_side),
-        cmocka_unit_test(overlapping_blocks),    cmocka_unit_test(the_same_block_twice),
-        cmocka_unit_test(hanging_nodes),         cmocka_unit_test(a_seam),
+        cmocka_unit_test(a_face_of_three_cells),
+        cmocka_unit_test(two_on_one_side),
+        cmocka_unit_test(overlapping_blocks),
+        cmocka_unit_test(the_same_block_twice),
+        cmocka_unit_test(hanging_nodes),
+        cmocka_unit_test(a_seam),
         cmocka_unit_test(thin_plates_are_seen_in_the_order_of_the_file),
     };
     if (!suite_begin(argc, argv))
