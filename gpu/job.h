@@ -34,9 +34,9 @@ typedef struct tc_job {
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
     bool count, audit; /* audit counts as well */
+    bool planes;   /* the stepper is the paper's arithmetic: stepper_planes.glsl */
     bool software; /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
 } tc_job;
-    bool planes;   /* the stepper is the paper's arithmetic: stepper_planes.glsl */
 
 typedef struct tc_job_result {
     double ms_first_hit, ms_march;

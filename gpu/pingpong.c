@@ -250,8 +250,6 @@ static tc_status march_layer(loop *l)
     return status;
 }
 
-static tc_status read_fragments(loop *l)
-{
 /* Rays of this layer that the paper's arithmetic gave up. */
 static int64_t count_given_up(loop *l)
 {
@@ -268,6 +266,8 @@ static int64_t count_given_up(loop *l)
     return (int64_t)n;
 }
 
+static tc_status read_fragments(loop *l)
+{
     const tc_gl *gl = l->job->gl;
     l->result->fragments = tc_alloc((size_t)l->result->passes, sizeof *l->result->fragments);
     if (!l->result->fragments)
@@ -300,10 +300,10 @@ tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err
         status = march_layer(&l);
         if (status != TC_OK || out->layers == before)
             break; /* no ray entered */
-        if (l.open > 0) {
-            out->rays_lost += l.open;
         if (job->planes) /* with peeling, a ray counts for each entry from which it is lost */
             out->rays_lost += count_given_up(&l);
+        if (l.open > 0) {
+            out->rays_lost += l.open;
             break;
         }
         if (!job->peel)

@@ -28,9 +28,9 @@ struct tc_gpu_renderer {
     int threads;
 
     uint64_t mesh_serial, scalar_serial; /* of what is uploaded; 0: nothing */
+    bool planes;                         /* and for which stepper */
     tc_gpu_mesh mesh;
     float *face_corner; /* kept from the pack for proposing first hits */
-    bool planes;                         /* and for which stepper */
     tc_pack_extent extent;
     double center[3], scale, scalar_lo, scalar_hi, ms_pack;
 
@@ -109,9 +109,9 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, bool plane
     if (status == TC_OK)
         status = tc_gpu_mesh_upload(&r->mesh, gl, &pack, planes ? &table1 : NULL, err);
     if (status == TC_OK) {
+        r->planes = planes;
         memcpy(r->center, pack.center, sizeof r->center);
         r->scale = pack.scale;
-        r->planes = planes;
         r->extent = pack.extent;
         r->scalar_lo = pack.scalar_lo;
         r->scalar_hi = pack.scalar_hi;
@@ -123,9 +123,9 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, bool plane
         stats->ms_pack = pack.ms + table1.ms;
         stats->ms_upload = r->mesh.ms;
     }
+    tc_pack_planes_finish(&table1);
     tc_pack_finish(&pack);
     return status;
-    tc_pack_planes_finish(&table1);
 }
 
 static tc_status ensure_state(tc_gpu_renderer *r, const tc_render_options *options, bool peeling, tc_error *err)
@@ -272,8 +272,6 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     status = ensure_mesh(r, mesh, planes, stats, err);
     if (status == TC_OK)
         status = ensure_state(r, options, peel, err);
-    if (status == TC_OK && gl->poison)
-        tc_state_poison(&r->state, gl);
     tc_job job = {.gl = gl, .programs = r->programs, .state = &r->state, .mesh = &r->mesh};
     if (status == TC_OK) {
         job.length_unit = 1 / (r->scale * frame->unit_distance);
@@ -302,6 +300,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.transmittance_stop = options->opacity_stop >= 1 ? -1 : 1 - options->opacity_stop;
     job.count = options->count || options->audit;
     job.audit = options->audit;
+    job.planes = planes;
     job.software = r->context->software;
     choose_passes(&job, options);
 
@@ -309,7 +308,6 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.screen_array = r->vertex_array[0];
     job.hit_array = r->vertex_array[1];
     job.hit_buffer = r->hit_buffer;
-    job.planes = planes;
 
     if (job.count) { /* steps are read as a whole */
         const GLuint none[4] = {0, 0, 0, 0};

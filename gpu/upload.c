@@ -7,25 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POISON_BYTES = 4096 };
-
-/* For tests (gl->poison): data, and NaN behind it, where nothing is to be read. */
-static tc_status upload_poisoned(const tc_texture_buffer *b, const tc_gl *gl, const void *data, const char *what,
-                                 tc_error *err)
-{
-    const uint32_t nan_bits = 0x7fc00000u;
-    unsigned char *padded = tc_alloc(b->bytes + POISON_BYTES, 1);
-    if (!padded)
-        return tc_fail_memory(err, what, b->bytes + POISON_BYTES, 1);
-    if (b->bytes > 0)
-        memcpy(padded, data, b->bytes);
-    for (size_t i = 0; i < POISON_BYTES; i += sizeof nan_bits)
-        memcpy(padded + b->bytes + i, &nan_bits, sizeof nan_bits);
-    gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)(b->bytes + POISON_BYTES), padded, GL_STATIC_DRAW);
-    free(padded);
-    return TC_OK;
-}
-
 static tc_status upload_buffer(tc_texture_buffer *out, const tc_gl *gl, const void *data, size_t n_texel,
                                size_t texel_bytes, GLenum format, const char *what, tc_error *err)
 {
@@ -36,10 +17,7 @@ static tc_status upload_buffer(tc_texture_buffer *out, const tc_gl *gl, const vo
     out->bytes = n_texel * texel_bytes;
     gl->GenBuffers(1, &out->buffer);
     gl->BindBuffer(GL_TEXTURE_BUFFER, out->buffer);
-    if (!gl->poison)
-        gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)out->bytes, data, GL_STATIC_DRAW);
-    else if (upload_poisoned(out, gl, data, what, err) != TC_OK)
-        return TC_E_MEMORY;
+    gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)out->bytes, data, GL_STATIC_DRAW);
     gl->GenTextures(1, &out->texture);
     gl->BindTexture(GL_TEXTURE_BUFFER, out->texture);
     gl->TexBuffer(GL_TEXTURE_BUFFER, format, out->buffer);
@@ -106,6 +84,10 @@ void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl)
     finish_buffer(&mesh->vertices, gl);
     finish_buffer(&mesh->faces, gl);
     finish_buffer(&mesh->cell_scalar, gl);
+    finish_buffer(&mesh->planes_vertices, gl);
+    finish_buffer(&mesh->planes_normals, gl);
+    finish_buffer(&mesh->planes_neighbours, gl);
+    finish_buffer(&mesh->planes_scalars, gl);
 }
 
 static GLuint linear_texture(const tc_gl *gl, GLenum target)
@@ -128,10 +110,6 @@ tc_status tc_gpu_table_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_ta
     for (int k = 0; k < 3; k++)
         if (table->size[k] > gl->max_texture_3d)
             return tc_fail(err, TC_E_ARG,
-    finish_buffer(&mesh->planes_vertices, gl);
-    finish_buffer(&mesh->planes_normals, gl);
-    finish_buffer(&mesh->planes_neighbours, gl);
-    finish_buffer(&mesh->planes_scalars, gl);
                            "a table %d entries wide is too large for %s (%d); use a smaller --table-size",
                            table->size[k], gl->renderer, gl->max_texture_3d);
     GLenum internal = table->format == TC_TABLE_8 ? GL_RGBA8 : table->format == TC_TABLE_16F ? GL_RGBA16F : GL_RGBA32F;

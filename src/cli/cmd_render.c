@@ -65,12 +65,12 @@ static int tc_frame(tc_render_run *run, tc_render_stats *stats, tc_renderer *ren
     tc_image_destroy(&run->image);
     tc_status status =
         tc_render(&run->image, stats, renderer, run->mesh, run->tf, &run->camera, &render, &talk->log, &err);
-    return status ? tc_talk_status(talk, status, &err) : -1;
-}
     if (status == TC_E_LOST && render.stepper == TC_STEPPER_PLANES) {
         run->lost = err;
         return -1;
     }
+    return status ? tc_talk_status(talk, status, &err) : -1;
+}
 
 /* The frames to time, after one to warm up when --repeat was given; then the counted one. */
 static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
@@ -224,6 +224,8 @@ static int tc_render_do(tc_render_run *run, tc_frames *frames, tc_talk *talk, in
     }
     if (code < 0)
         tc_render_summary(run, talk);
+    if (code < 0 && run->lost.code)
+        code = tc_talk_status(talk, run->lost.code, &run->lost);
     return code;
 }
 
@@ -237,8 +239,6 @@ int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, ch
         return code;
     frames.frame = calloc((size_t)options.repeat, 4 * sizeof(double));
     if (!frames.frame) {
-    if (code < 0 && run->lost.code)
-        code = tc_talk_status(talk, run->lost.code, &run->lost);
         tc_talk_error(talk, "memory ran out");
         return TC_EXIT_FAILED;
     }

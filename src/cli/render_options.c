@@ -142,6 +142,7 @@ static const tc_option tc_render_option[] = {
     {"--opacity-stop", 0, "A", "end a ray at this opacity; 1: never; default 0.999", TC_OPTION_REAL, AT(opacity_stop), .low = 0, .high = 1, .open = true},
     {"--gl", 0, "auto|osmesa|egl", "how to get an OpenGL context", TC_OPTION_CHOICE, AT(gl_choice), .choice = tc_gl_choice},
     {"--driver", 0, "auto|pingpong|reference", "multi-pass fragment shader, or double precision on the CPU", TC_OPTION_CHOICE, AT(driver_choice), .choice = tc_driver_choice},
+    {"--stepper", 0, "signs|planes", "how a ray leaves a cell: exact signs, or, to compare, the paper's plane equations, which lose rays", TC_OPTION_CHOICE, AT(stepper), .choice = tc_stepper_choice},
     {"--steps-per-pass", 0, "K|auto", "cells a ray crosses in one pass", TC_OPTION_INT, AT(steps_per_pass), .low = 1, .high = 65536, .choice = tc_auto_choice},
     {"--z-update-every", 0, "N|auto|never", "passes between locks of finished rays by the depth test", TC_OPTION_INT, AT(z_update_every), .low = 1, .high = 65536, .choice = tc_lock_choice},
     TC_INPUT_THREADS_ROW(tc_render_command, source),
@@ -159,7 +160,6 @@ static const tc_option tc_render_option[] = {
     {"--shell", .kind = TC_OPTION_LATER},
 };
 /* clang-format on */
-    {"--stepper", 0, "signs|planes", "how a ray leaves a cell: exact signs, or, to compare, the paper's plane equations, which lose rays", TC_OPTION_CHOICE, AT(stepper), .choice = tc_stepper_choice},
 
 const tc_command tc_command_render = {
     .name = "render",
@@ -224,6 +224,14 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
         tc_talk_error(talk, "--camera-position and --focal-point are the same point, so there is no direction to look");
         return TC_EXIT_USAGE;
     }
+    if (out->stepper == TC_STEPPER_PLANES && !strcmp(out->driver, "reference")) {
+        tc_talk_error(talk, "--stepper planes walks from cell to cell, which --driver reference does not: leave one out");
+        return TC_EXIT_USAGE;
+    }
+    if (out->stepper == TC_STEPPER_PLANES && out->audit) {
+        tc_talk_error(talk, "--audit counts faces that hold the ray, which --stepper planes does not ask: leave one out");
+        return TC_EXIT_USAGE;
+    }
     if (out->preset && !out->color_map) {
         tc_talk_error(talk, "--preset names a map of a file: give the file with --color-map");
         return TC_EXIT_USAGE;
@@ -247,14 +255,6 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
     if (code < 0 && out->stats)
         code = tc_output_check(out->stats, talk);
     return code;
-    if (out->stepper == TC_STEPPER_PLANES && !strcmp(out->driver, "reference")) {
-        tc_talk_error(talk, "--stepper planes walks from cell to cell, which --driver reference does not: leave one out");
-        return TC_EXIT_USAGE;
-    }
-    if (out->stepper == TC_STEPPER_PLANES && out->audit) {
-        tc_talk_error(talk, "--audit counts faces that hold the ray, which --stepper planes does not ask: leave one out");
-        return TC_EXIT_USAGE;
-    }
 }
 
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)

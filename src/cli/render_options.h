@@ -37,6 +37,7 @@ typedef struct tc_render_command {
 
     const char *gl, *driver;
     int gl_choice, driver_choice;
+    int stepper; /* tc_stepper */
     int steps_per_pass, z_update_every;
 
     uint64_t verify;
@@ -45,7 +46,6 @@ typedef struct tc_render_command {
     bool has_repeat, count, audit;
     const char *stats;
     uint64_t seed;
-    int stepper; /* tc_stepper */
 } tc_render_command;
 
 /* Defaults, parsing, checks that need no mesh. -1 to go on, else the exit code. */
