@@ -272,6 +272,8 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     status = ensure_mesh(r, mesh, planes, stats, err);
     if (status == TC_OK)
         status = ensure_state(r, options, peel, err);
+    if (status == TC_OK && gl->poison)
+        tc_state_poison(&r->state, gl);
     tc_job job = {.gl = gl, .programs = r->programs, .state = &r->state, .mesh = &r->mesh};
     if (status == TC_OK) {
         job.length_unit = 1 / (r->scale * frame->unit_distance);

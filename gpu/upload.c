@@ -7,6 +7,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { POISON_BYTES = 4096 };
+
+/* For tests (gl->poison): data, and NaN behind it, where nothing is to be read. */
+static tc_status upload_poisoned(const tc_texture_buffer *b, const tc_gl *gl, const void *data, const char *what,
+                                 tc_error *err)
+{
+    const uint32_t nan_bits = 0x7fc00000u;
+    unsigned char *padded = tc_alloc(b->bytes + POISON_BYTES, 1);
+    if (!padded)
+        return tc_fail_memory(err, what, b->bytes + POISON_BYTES, 1);
+    if (b->bytes > 0)
+        memcpy(padded, data, b->bytes);
+    for (size_t i = 0; i < POISON_BYTES; i += sizeof nan_bits)
+        memcpy(padded + b->bytes + i, &nan_bits, sizeof nan_bits);
+    gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)(b->bytes + POISON_BYTES), padded, GL_STATIC_DRAW);
+    free(padded);
+    return TC_OK;
+}
+
 static tc_status upload_buffer(tc_texture_buffer *out, const tc_gl *gl, const void *data, size_t n_texel,
                                size_t texel_bytes, GLenum format, const char *what, tc_error *err)
 {
@@ -17,7 +36,10 @@ static tc_status upload_buffer(tc_texture_buffer *out, const tc_gl *gl, const vo
     out->bytes = n_texel * texel_bytes;
     gl->GenBuffers(1, &out->buffer);
     gl->BindBuffer(GL_TEXTURE_BUFFER, out->buffer);
-    gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)out->bytes, data, GL_STATIC_DRAW);
+    if (!gl->poison)
+        gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)out->bytes, data, GL_STATIC_DRAW);
+    else if (upload_poisoned(out, gl, data, what, err) != TC_OK)
+        return TC_E_MEMORY;
     gl->GenTextures(1, &out->texture);
     gl->BindTexture(GL_TEXTURE_BUFFER, out->texture);
     gl->TexBuffer(GL_TEXTURE_BUFFER, format, out->buffer);
