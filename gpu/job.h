@@ -28,7 +28,9 @@ typedef struct tc_job {
     double grid[2];                              /* running integrals: intervals between nodes, length of one */
     double near, thick; /* running integrals: smallest difference, thickest piece; thick 0: never split */
     bool rough;         /* running integrals: the function has steps or spikes */
-    bool nonfinite;     /* some scalars are NaN: their cells contribute nothing */
+    bool nonfinite;     /* some scalars are NaN: their cells contribute nothing, */
+    bool has_nan_color; /* … or nan_color: r, g, b, attenuation per unit distance */
+    double nan_color[4];
     double most[3];     /* running integrals: largest r, g, b of the function */
     double mean[4];     /* running integrals: mean slope */
 

@@ -108,6 +108,8 @@ static tc_status prepare_march(loop *l)
     tc_pass_int(gl, l->march, "steps_per_pass", job->steps_per_pass);
     tc_pass_float(gl, l->march, "length_unit", job->length_unit);
     tc_pass_float(gl, l->march, "transmittance_stop", job->transmittance_stop);
+    if (job->has_nan_color)
+        tc_pass_vec4(gl, l->march, "nan_color", job->nan_color);
     return TC_OK;
 }
 

@@ -20,6 +20,8 @@ enum {
     AUTO_Z_SMALL = 4 /* for few steps a pass; Weiler et al. 2003, 5.2, found 14 best: 3 to 6 % more fragments here */
 };
 
+static const double OPAQUE = 1e30; /* attenuation of the colour of missing values: more would not fit a float */
+
 struct tc_gpu_renderer {
     tc_context *context;
     tc_program_cache *programs;
@@ -299,6 +301,9 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.has_imaginary = mesh->n_imaginary > 0;
     job.peel = peel;
     job.nonfinite = mesh->report.nonfinite_scalars > 0;
+    job.has_nan_color = job.nonfinite && options->has_nan_color;
+    memcpy(job.nan_color, options->nan_color, sizeof job.nan_color);
+    job.nan_color[3] = fmin(job.nan_color[3], OPAQUE);
     job.transmittance_stop = options->opacity_stop >= 1 ? -1 : 1 - options->opacity_stop;
     job.count = options->count || options->audit;
     job.audit = options->audit;

@@ -37,6 +37,16 @@ void integral_add(inout Integral i, float s, float l)
     i.front = s;
 }
 
+#ifdef NAN_COLOR
+// A segment of length l of one colour: r, g, b and attenuation per unit distance. The scalar is not known behind it.
+void integral_add_constant(inout Integral i, vec4 color, float l)
+{
+    float clear = exp(-color.a * l);
+    i.color.rgb += i.color.a * (1.0 - clear) * color.rgb;
+    i.color.a *= clear;
+}
+#endif
+
 float integral_transmittance(Integral i)
 {
     return i.color.a;

@@ -39,6 +39,9 @@ Audit audit;
 uniform int steps_per_pass;
 uniform float length_unit;         // half diagonals → unit distances
 uniform float transmittance_stop;  // a ray ends at or below
+#ifdef NAN_COLOR
+uniform vec4 nan_color; // of cells with a value that is not finite: r, g, b, attenuation per unit distance
+#endif
 
 layout(location = 0) out ivec4 out_walk;
 layout(location = 1) out vec4 out_color;
@@ -78,8 +81,12 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
     integral_enter(integral, segment.s0);
 #endif
 #ifdef NONFINITE
-    // A cell with a value that is not finite contributes nothing: its entry and exit face together hold all its vertices.
+    // A cell with a value that is not finite has no colour of the function's: its entry and exit face together hold all
+    // its vertices.
     if (isnan(segment.s0) || isnan(segment.s1)) {
+#ifdef NAN_COLOR
+        integral_add_constant(integral, nan_color, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
+#endif
         segment.real = false;
         segment.s1 = isnan(segment.s1) ? 0.0 : segment.s1;
         integral_enter(integral, segment.s1);

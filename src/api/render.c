@@ -81,6 +81,13 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
         return tc_fail(err, TC_E_ARG, "stepper %d is unknown; there are %d (signs) and %d (planes)",
                        (int)options->stepper, TC_STEPPER_SIGNS, TC_STEPPER_PLANES);
     }
+    const double *nan = options->nan_color;
+    for (int k = 0; k < 4 && options->has_nan_color; k++)
+        if (!(nan[k] >= 0) || !isfinite(nan[k]) || (k < 3 && nan[k] > 1))
+            return tc_fail(err, TC_E_ARG,
+                           "the colour of missing values, %g %g %g with attenuation %g, is no colour; use 0 to 1 for "
+                           "each of r, g and b, and a finite attenuation of 0 or more",
+                           nan[0], nan[1], nan[2], nan[3]);
     *unit = options->unit_distance > 0 ? options->unit_distance : tc_default_unit_distance(mesh);
     return tc_rays_from_camera(rays, camera, options->width, options->height, err);
 }
@@ -142,6 +149,7 @@ static tc_status reference_render(tc_image *image, tc_render_stats *stats, tc_re
     if (status != TC_OK)
         return status;
     double start = tc_now_ms();
+    tc_reference_set_nan_color(r->reference, frame->options->has_nan_color ? frame->options->nan_color : NULL);
     status = tc_reference_render(image, r->reference, frame->transfer, frame->unit_distance, frame->rays, r->threads,
                                  frame->log, err);
     stats->ms_frame = stats->ms_march = tc_now_ms() - start;

@@ -17,8 +17,10 @@ tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint
     tc_reference *reference = NULL;
     if (status == TC_OK)
         status = tc_reference_create(&reference, mesh, 0, err);
-    if (status == TC_OK)
+    if (status == TC_OK) {
+        tc_reference_set_nan_color(reference, options->has_nan_color ? options->nan_color : NULL);
         status = tc_reference_verify(out, image, n, seed, reference, tf, unit, &rays, 0, log, err);
+    }
     out->rays_lost = -1; /* a picture does not tell */
     tc_reference_destroy(&reference);
     return status;

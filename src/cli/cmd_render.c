@@ -48,6 +48,8 @@ static void tc_render_set(tc_render_options *out, const tc_render_command *optio
     out->table_format = (tc_table_format)options->table_format;
     out->unit_distance = options->unit_distance;
     out->opacity_stop = options->opacity_stop;
+    out->has_nan_color = options->nan_color.there;
+    memcpy(out->nan_color, options->nan_color.rgba, sizeof out->nan_color);
     out->stepper = (tc_stepper)options->stepper;
     out->steps_per_pass = options->steps_per_pass;
     out->z_update_every = options->z_update_every;
@@ -195,6 +197,17 @@ static void tc_render_summary(const tc_render_run *run, tc_talk *talk)
                 stats->integrator, frame, strcmp(run->options->output, "-") ? run->options->output : "stdout");
 }
 
+static void tc_nonfinite_say(const tc_render_run *run, tc_talk *talk)
+{
+    const tc_mesh_report *report = &run->report;
+    if (report->nonfinite_cells)
+        tc_talk_say(talk, "%zu of %zu cells have a value that is not finite and are %s", report->nonfinite_cells,
+                    report->n_tet,
+                    run->options->nan_color.there ? "shown with --nan-color" : "transparent; --nan-color shows them");
+    if (report->dropped_nonfinite)
+        tc_talk_say(talk, "%zu cells have a point that is not finite and were dropped", report->dropped_nonfinite);
+}
+
 /* From a prepared mesh to files. */
 static int tc_render_do(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
 {
@@ -253,6 +266,7 @@ int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, ch
         code = tc_input_prepare(run.mesh, &options.source, talk);
     if (code < 0) {
         tc_mesh_get_report(&run.report, run.mesh);
+        tc_nonfinite_say(&run, talk);
         code = tc_render_do(&run, &frames, talk, argc, argv);
     }
     tc_image_destroy(&run.image);

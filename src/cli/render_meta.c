@@ -67,6 +67,9 @@ static char *tc_camera_text(const tc_camera *camera)
         tc_json_real(json, "parallel_scale", camera->parallel_scale);
     else
         tc_json_real(json, "view_angle", camera->view_angle);
+    const double clip[2] = {camera->clip_near, camera->clip_far};
+    if (camera->clip_far > 0)
+        json_object_set_new(json, "clipping_range", tc_json_reals(clip, 2));
     return tc_compact(json);
 }
 
@@ -79,6 +82,8 @@ static char *tc_transfer_text(const tc_render_run *run)
     tc_json_text(json, "opacity", run->options->opacity);
     json_object_set_new(json, "log", json_boolean(run->options->log));
     tc_json_real(json, "unit_distance", tc_run_unit_distance(run));
+    if (run->options->nan_color.there)
+        json_object_set_new(json, "nan_color", tc_json_reals(run->options->nan_color.rgba, 4));
     for (size_t i = 0; i < n; i++) {
         double row[5] = {knot[i].s, knot[i].r, knot[i].g, knot[i].b, knot[i].a};
         json_array_append_new(list, tc_json_reals(row, 5));

@@ -91,6 +91,21 @@ static bool tc_background_parse(void *field, const char *text, char *why)
     return true;
 }
 
+static bool tc_nan_color_parse(void *field, const char *text, char *why)
+{
+    tc_nan_color out = {.there = true, .rgba = {0, 0, 0, 1}};
+    int n = 0;
+    if (!tc_parse_reals(out.rgba, &n, 4, text) || n < 3)
+        return false;
+    for (int i = 0; i < n; i++)
+        if (out.rgba[i] < 0 || (i < 3 && out.rgba[i] > 1)) {
+            snprintf(why, 64, "R, G and B each from 0 to 1, A not below 0");
+            return false;
+        }
+    *(tc_nan_color *)field = out;
+    return true;
+}
+
 static bool tc_table_size_parse(void *field, const char *text, char *why)
 {
     int size[3];
@@ -127,12 +142,14 @@ static const tc_option tc_render_option[] = {
     {"--elevation", 0, "DEG", "then raise the eye", TC_OPTION_REAL, AT(elevation)},
     {"--roll", 0, "DEG", "then turn about the view direction", TC_OPTION_REAL, AT(roll)},
     {"--zoom", 0, "F", "then divide the view angle or scale; default 1", TC_OPTION_REAL, AT(zoom), .low = 0, .high = 1e300, .open = true},
+    {"--clipping-range", 0, "NEAR,FAR", "show only what lies between these distances from the eye, along the view", TC_OPTION_REALS, AT(clipping_range), HAS(has_clipping_range), .n = 2},
     {.help = "Transfer function"},
     {"--color-map", 0, "NAME|FILE", "a built-in map, or a ParaView preset (.json, .xml); default Cool to Warm", TC_OPTION_TEXT, AT(color_map)},
     {"--preset", 0, "NAME", "which map of a file that holds several; default the first", TC_OPTION_TEXT, AT(preset)},
     {"--opacity", 0, "FILE|S:A,…|linear|geom|sigmoid", "attenuation per unit distance; default the preset's own, else linear from 0 to 0.3", TC_OPTION_TEXT, AT(opacity)},
     {"--range", 0, "LO,HI", "scalars that the map spans; default the field's range", TC_OPTION_REALS, AT(range), HAS(has_range), .n = 2},
     {"--unit-distance", 0, "U", "length over which opacity acts; default bounds diagonal / cbrt(cells)", TC_OPTION_REAL, AT(unit_distance), .low = 0, .high = 1e300, .open = true},
+    {"--nan-color", 0, "R,G,B[,A]", "show cells with a value that is not finite, with attenuation A (1) per unit distance", TC_OPTION_CUSTOM, AT(nan_color), .parse = tc_nan_color_parse},
     {"--log", 0, NULL, "lay the map over the logarithm of the scalar", TC_OPTION_FLAG, AT(log)},
     {.help = "Method"},
     {"--model", 0, "density-emitter", "how light and matter act", TC_OPTION_CHOICE, AT(model), .choice = tc_model_choice},
@@ -214,6 +231,12 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
         return code;
     if (out->has_range && !(out->range[0] < out->range[1])) {
         tc_talk_error(talk, "--range takes LO,HI with LO below HI, not %g,%g", out->range[0], out->range[1]);
+        return TC_EXIT_USAGE;
+    }
+    const double *clip = out->clipping_range;
+    if (out->has_clipping_range && !(clip[0] >= 0 && clip[0] < clip[1])) {
+        tc_talk_error(talk, "--clipping-range takes NEAR,FAR with NEAR not below 0 and FAR beyond NEAR, not %g,%g", clip[0],
+                      clip[1]);
         return TC_EXIT_USAGE;
     }
     if (out->has_view_up && tc_equal3(out->view_up, zero)) {

@@ -13,6 +13,11 @@ typedef struct tc_background {
     float rgba[4]; /* premultiplied */
 } tc_background;
 
+typedef struct tc_nan_color {
+    bool there;
+    double rgba[4]; /* r, g, b, attenuation per unit distance */
+} tc_nan_color;
+
 typedef struct tc_render_command {
     const char *input, *output; /* output NULL: default_output */
     char default_output[512];
@@ -23,11 +28,14 @@ typedef struct tc_render_command {
     double position[3], focal_point[3], view_up[3], view_angle, parallel_scale;
     bool has_position, has_focal_point, has_view_up, has_parallel_scale, parallel;
     double azimuth, elevation, roll, zoom;
+    double clipping_range[2];
+    bool has_clipping_range;
 
     const char *color_map, *preset, *opacity;
     double range[2];
     bool has_range, log;
     double unit_distance;
+    tc_nan_color nan_color;
     int model;
 
     int integrator; /* tc_integrator */

@@ -52,6 +52,8 @@ static json_t *tc_mesh_json(const tc_render_run *run)
     tc_json_count(mesh, "tets", report->n_tet);
     tc_json_count(mesh, "imaginary_tets", report->n_imaginary);
     tc_json_count(mesh, "dropped_cells", dropped + (source ? source->dropped_cells : 0));
+    tc_json_count(mesh, "dropped_nonfinite", report->dropped_nonfinite);
+    tc_json_count(mesh, "nonfinite_cells", report->nonfinite_cells);
     json_object_set_new(mesh, "convex", json_boolean(report->convex));
     tc_json_text(mesh, "reentry", tc_reentry_name(report->reentry));
     tc_json_text(mesh, "reentry_why", report->reentry_why);

@@ -37,6 +37,8 @@ int tc_render_camera(tc_camera *out, const tc_render_command *options, const dou
         tc_camera_roll(out, options->roll);
     if (options->zoom != 1)
         tc_camera_zoom(out, options->zoom);
+    out->clip_near = options->has_clipping_range ? options->clipping_range[0] : 0;
+    out->clip_far = options->has_clipping_range ? options->clipping_range[1] : 0;
     return -1;
 }
 
@@ -93,8 +95,8 @@ static void tc_unit(double *v)
         v[i] /= length;
 }
 
-/* Of the box's eight corners: how many lie behind the eye, and whether all lie beyond one side of the view. */
-static void tc_box_in_view(int *behind, bool *aside, const double bounds[6], const tc_camera *camera,
+/* The box's depths from the eye along the view (least, most), and whether all its corners lie beyond one side of it. */
+static void tc_box_in_view(double depth[2], bool *aside, const double bounds[6], const tc_camera *camera,
                            const tc_size *size)
 {
     double ahead[3], right[3], up[3];
@@ -107,13 +109,15 @@ static void tc_box_in_view(int *behind, bool *aside, const double bounds[6], con
     tc_cross(up, right, ahead);
     double half = camera->parallel ? camera->parallel_scale : tan(camera->view_angle * acos(-1.0) / 360);
     double wide = half * size->width / size->height;
-    *behind = 0;
+    depth[0] = INFINITY;
+    depth[1] = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
         double x[3];
         for (int i = 0; i < 3; i++)
             x[i] = bounds[2 * i + (corner >> i & 1)] - camera->position[i];
         double z = tc_dot(x, ahead), h = camera->parallel ? 1 : z;
-        *behind += !camera->parallel && z <= 0;
+        depth[0] = fmin(depth[0], z);
+        depth[1] = fmax(depth[1], z);
         beyond[0] += tc_dot(x, right) > wide * h;
         beyond[1] += tc_dot(x, right) < -wide * h;
         beyond[2] += tc_dot(x, up) > half * h;
@@ -128,23 +132,28 @@ void tc_empty_reason(char *why, size_t capacity, const tc_mesh_report *report, c
     double lo = report->scalar_range[0], hi = report->scalar_range[1];
     const double *b = report->bounds;
     size_t n = 0;
-    int behind;
+    double depth[2];
     bool aside;
     const char *name = field && *field ? field : "the field";
     const tc_knot *knot = tc_transfer_knots(tf, &n);
-    tc_box_in_view(&behind, &aside, b, camera, size);
-    if (!(lo <= hi))
-        snprintf(why, capacity, "no value of %s is finite", name);
+    tc_box_in_view(depth, &aside, b, camera, size);
+    if (report->nonfinite_cells >= report->n_tet)
+        snprintf(why, capacity, "every cell has a value of %s that is not finite; --nan-color shows them", name);
     else if (tc_opacity_peak(tf, lo, hi) <= 0)
         snprintf(why, capacity,
                  "the opacity is 0 for every value of %s (%g to %g; the transfer function spans %g to %g); change "
                  "--opacity or --range",
                  name, lo, hi, n ? knot[0].s : 0.0, n ? knot[n - 1].s : 0.0);
-    else if (behind == 8)
+    else if (depth[1] <= 0)
         snprintf(why, capacity,
                  "the mesh (%g..%g, %g..%g, %g..%g) lies behind the camera at %g,%g,%g; change --camera-position or "
                  "--focal-point",
                  b[0], b[1], b[2], b[3], b[4], b[5], camera->position[0], camera->position[1], camera->position[2]);
+    else if (camera->clip_far > 0 && (depth[1] <= camera->clip_near || depth[0] >= camera->clip_far))
+        snprintf(why, capacity,
+                 "the mesh lies %g to %g before the camera, outside the clipping range %g to %g; change "
+                 "--clipping-range or leave it out",
+                 depth[0], depth[1], camera->clip_near, camera->clip_far);
     else if (aside)
         snprintf(why, capacity,
                  "the mesh (%g..%g, %g..%g, %g..%g) lies outside the view; change the camera, or leave its options "

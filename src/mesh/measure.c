@@ -7,6 +7,18 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Tets with a corner whose value is not finite. */
+static size_t count_unknown(const tc_mesh *m)
+{
+    size_t n = 0;
+    for (size_t t = 0; t < m->n_tet; t++) {
+        const int32_t *v = m->tet + 4 * t;
+        n += !(isfinite(m->scalar[v[0]]) && isfinite(m->scalar[v[1]]) && isfinite(m->scalar[v[2]]) &&
+               isfinite(m->scalar[v[3]]));
+    }
+    return n;
+}
+
 void tc_mesh_measure_scalar(tc_mesh *m)
 {
     /* Steiner points come last and carry no value */
@@ -23,6 +35,7 @@ void tc_mesh_measure_scalar(tc_mesh *m)
     }
     m->report.association = m->association;
     m->report.nonfinite_scalars = bad;
+    m->report.nonfinite_cells = bad == 0 || m->association == TC_CELL_DATA ? bad : count_unknown(m);
     m->report.scalar_range[0] = lo <= hi ? lo : 0;
     m->report.scalar_range[1] = lo <= hi ? hi : 0;
 }

@@ -45,7 +45,8 @@ struct tc_mesh {
     void *source_memory;  /* everything source points into: one block, free() */
 };
 
-/* Sets the report's scalar_range and nonfinite_scalars from the values; both ends are 0 when none is finite. */
+/* Sets the report's scalar_range, nonfinite_scalars and nonfinite_cells from the values; both ends are 0 when none is
+ * finite. */
 void tc_mesh_measure_scalar(tc_mesh *mesh);
 /* Sets the report's bounds (of finite vertices), longest_edge and volume from the real tets; an edge or volume that
  * is not finite is left out. The sums do not depend on the number of threads. Errors: TC_E_MEMORY. */
