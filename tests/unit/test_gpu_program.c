@@ -159,12 +159,12 @@ static tc_job job_of(int features, const tc_frame *frame)
 
 static GLuint get(tc_program_cache *cache, const char *vertex, const char *fragment, const tc_job *job)
 {
-    char defines[512];
+    char defines[512], alias[128];
     tc_job_defines(defines, sizeof defines, job);
-    const tc_program_source source = {vertex, fragment, defines,
-                                      job->integrator == TC_INTEGRATOR_TABLE
-                                          ? "integrator.glsl=integrate_table.glsl"
-                                          : "integrator.glsl=integrate_integral.glsl"};
+    snprintf(alias, sizeof alias, "integrator.glsl=integrate_%s.glsl%s",
+             job->integrator == TC_INTEGRATOR_TABLE ? "table" : "integral",
+             job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
+    const tc_program_source source = {vertex, fragment, defines, alias};
     GLuint program;
     tc_error err = {0};
     if (tc_program_get(&program, cache, &source, &err) != TC_OK)
@@ -228,6 +228,51 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
     tc_context_destroy(&context);
 }
 
+/* Either stepper's program holds nothing of the other's. */
+static void the_paper_s_stepper_is_where_it_is_not_asked_for(void **state)
+{
+    (void)state;
+    static const char *const textures[] = {"planes_vertices", "planes_normals", "planes_neighbours", "planes_scalars"};
+    static const char both[] = "integrator.glsl=integrate_table.glsl stepper.glsl=stepper_planes.glsl";
+    char *text;
+    assert_int_equal(tc_program_text(&text, "march.frag", "", both, NULL), TC_OK);
+    assert_int_equal(count(text, "Segment walk_step("), 1);
+    assert_int_equal(count(text, "uniform sampler3D tf_table"), 1);
+    assert_int_equal(count(text, "sign_cross"), 0);
+    assert_true(count(text, "planes_normals") > 0);
+    free(text);
+    assert_int_equal(tc_program_text(&text, "march.frag", "", "integrator.glsl=integrate_table.glsl", NULL), TC_OK);
+    assert_int_equal(count(text, "planes_"), 0);
+    free(text);
+
+    tc_context *context;
+    tc_program_cache *cache;
+    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
+        skip();
+    const tc_gl *gl = &context->gl;
+    for (int f = 0; f < N_FEATURES; f += 13) {
+        tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
+        tc_job job = job_of(f, &frame);
+        GLuint signs = get(cache, "screen.vert", "march.frag", &job);
+        GLuint first = get(cache, "first_hit.vert", "first_hit.frag", &job);
+        job.planes = true;
+        GLuint planes = get(cache, "screen.vert", "march.frag", &job);
+        for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+            expect_uniform(gl, signs, textures[i], false, f);
+            expect_uniform(gl, first, textures[i], false, f);
+            expect_uniform(gl, planes, textures[i], true, f);
+        }
+        expect_uniform(gl, signs, "mesh_cells", true, f);
+        expect_uniform(gl, first, "mesh_cells", false, f); /* so that a scene with planes needs no records */
+        expect_uniform(gl, planes, "mesh_cells", false, f);
+        job.nonfinite = job.audit = job.count = job.software = true;
+        get(cache, "screen.vert", "march.frag", &job);
+    }
+    get(cache, "screen.vert", "lost.frag", &(tc_job){.frame = &(tc_frame){.ahead = true}});
+    tc_program_cache_destroy(&cache);
+    tc_context_destroy(&context);
+}
+
 static void a_plain_scene_defines_anything(void **state)
 {
     (void)state;
@@ -276,6 +321,7 @@ int main(void)
         cmocka_unit_test(missing_files_are_not_named),
         cmocka_unit_test(compilers_errors_name_another_line),
         cmocka_unit_test(a_program_holds_what_its_scene_does_not_need),
+        cmocka_unit_test(the_paper_s_stepper_is_where_it_is_not_asked_for),
         cmocka_unit_test(a_plain_scene_defines_anything),
         cmocka_unit_test(some_shader_does_not_compile),
     };
