@@ -36,7 +36,8 @@ typedef struct tc_job {
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
     bool count, audit; /* audit counts as well */
-    bool planes;   /* the stepper is the paper's arithmetic: stepper_planes.glsl */
+    bool planes;   /* the stepper is the paper's arithmetic: stepper_planes.glsl, */
+    double longest; /* … which needs to know the longest edge of the real cells, in mesh space */
     bool software; /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
 } tc_job;
 

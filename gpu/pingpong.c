@@ -66,6 +66,7 @@ static void bind_planes(const tc_job *job, GLuint program)
     tc_pass_fetch(gl, program, "planes_normals", unit + 1, GL_RGBA32F, mesh->planes_normals.texture, software);
     tc_pass_fetch(gl, program, "planes_neighbours", unit + 2, GL_R32I, mesh->planes_neighbours.texture, software);
     tc_pass_fetch(gl, program, "planes_scalars", unit + 3, GL_RGBA32F, mesh->planes_scalars.texture, software);
+    tc_pass_float(gl, program, "planes_longest", job->longest);
 }
 
 /* The programs of the loop, compiled if need be. */

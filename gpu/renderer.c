@@ -308,6 +308,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.count = options->count || options->audit;
     job.audit = options->audit;
     job.planes = planes;
+    job.longest = mesh->report.longest_edge * r->scale;
     job.software = r->context->software;
     choose_passes(&job, options);
 

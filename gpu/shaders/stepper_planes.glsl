@@ -14,6 +14,7 @@ FETCH_BUFFER(4) planes_vertices;    // at 4*t + i: v(t,i)
 FETCH_BUFFER(5) planes_normals;     // n(t,i), 1 + f(t,i) (negative: imaginary cell)
 FETCH_IBUFFER(6) planes_neighbours; // a(t,i), -1: outside
 FETCH_BUFFER(7) planes_scalars;     // at t: g(t) and its offset
+uniform float planes_longest;       // edge of the real cells
 
 const int WALK_LOST = -3;           // in place of a cell
 const float PLANES_FAR = 1.0e6;     // "an appropriately large number" (3.3): nothing in the mesh is that far
@@ -115,8 +116,10 @@ Segment walk_step(inout Walk w, Ray ray)
 #else
     s = clamp(s, 0.0, 1.0); // as a texture's coordinates are
 #endif
-    segment.z0 = min(w.z, lambda); // the length is the points' distance, even if the exit lies before the entry
-    segment.z1 = max(w.z, lambda);
+    // The length is the points' distance, even if the exit lies before the entry, and ends with the table of 3.3, whose
+    // last entry is the longest edge.
+    segment.z0 = min(w.z, lambda);
+    segment.z1 = segment.real ? min(max(w.z, lambda), segment.z0 + planes_longest) : max(w.z, lambda);
     segment.s1 = s;
     w.z = lambda;
     w.s = s;
