@@ -174,11 +174,14 @@ void suite_ray(double origin[3], double direction[3], const tc_camera *camera, i
     tc_vec_normalize(direction);
 }
 
-double suite_color_excess(const tc_image *image, const tc_transfer *tf)
+/* nan_color: of missing values, may be NULL. */
+static double color_excess(const tc_image *image, const tc_transfer *tf, const double *nan_color)
 {
     size_t n, pixels = (size_t)image->width * (size_t)image->height;
     const tc_knot *knot = tc_transfer_knots(tf, &n);
     double most[3] = {0, 0, 0}, excess = 0;
+    for (int c = 0; c < 3 && nan_color; c++)
+        most[c] = nan_color[c];
     for (size_t i = 0; i < n; i++) {
         const double color[3] = {knot[i].r, knot[i].g, knot[i].b};
         for (int c = 0; c < 3; c++)
@@ -188,6 +191,11 @@ double suite_color_excess(const tc_image *image, const tc_transfer *tf)
         for (size_t c = 0; c < 3; c++)
             excess = fmax(excess, image->rgba[4 * i + c] - image->rgba[4 * i + 3] * most[c]);
     return excess;
+}
+
+double suite_color_excess(const tc_image *image, const tc_transfer *tf)
+{
+    return color_excess(image, tf, NULL);
 }
 
 /* What must hold of every picture. A table's colours and opacities are rounded apart from each other. */
@@ -200,7 +208,8 @@ static void expect_sane(const tc_image *image, const tc_transfer *tf, const tc_r
             fail_msg("pixel %d, %d is %g %g %g, alpha %g", (int)(i % (size_t)image->width),
                      (int)(i / (size_t)image->width), (double)p[0], (double)p[1], (double)p[2], (double)p[3]);
     }
-    double excess = suite_color_excess(image, tf), bound = options->table_format == TC_TABLE_8 ? 0.08 : SUITE_HALF_STEP;
+    double excess = color_excess(image, tf, options->has_nan_color ? options->nan_color : NULL),
+           bound = options->table_format == TC_TABLE_8 ? 0.08 : SUITE_HALF_STEP;
     if (!(excess <= bound))
         fail_msg("a colour exceeds alpha times the function's largest by %g", excess);
 }

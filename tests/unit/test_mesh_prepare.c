@@ -514,7 +514,15 @@ static void values_that_are_not_finite_are_counted_and_left_out_of_the_range(voi
     tc_mesh *m = shape_mesh(&s, some, TC_POINT_DATA);
     tc_mesh_report r = shape_prepare(m, TC_REENTRY_PEEL);
     assert_int_equal(r.nonfinite_scalars, 2);
+    assert_int_equal(r.nonfinite_cells, 1);
     assert_true(r.scalar_range[0] == -3 && r.scalar_range[1] == 7);
+    const double cell = NAN, known = 2;
+    assert_int_equal(tc_mesh_set_scalar(m, &cell, TC_CELL_DATA, NULL), TC_OK);
+    tc_mesh_get_report(&r, m);
+    assert_int_equal(r.nonfinite_cells, 1);
+    assert_int_equal(tc_mesh_set_scalar(m, &known, TC_CELL_DATA, NULL), TC_OK);
+    tc_mesh_get_report(&r, m);
+    assert_int_equal(r.nonfinite_cells, 0);
     assert_int_equal(tc_mesh_set_scalar(m, none, TC_POINT_DATA, NULL), TC_OK);
     tc_mesh_get_report(&r, m);
     assert_int_equal(r.nonfinite_scalars, 4);
