@@ -3,6 +3,8 @@
 #   make            build into build/; the program is build/tetcast
 #   make demo       render the heat sink to build/demo.png
 #   make test       build everything and run all tests
+#   make sanitize   the same with address and undefined-behaviour sanitizers, in build/sanitize
+#   make valgrind   what needs no GL under Valgrind's memcheck, in build/valgrind
 #   make bench      measure, side by side with VTK
 #   make docs       the figures in docs/images, and the manual pages as HTML in build/docs
 #   make install    to PREFIX (/usr/local), below DESTDIR
@@ -23,6 +25,7 @@ BUILD := build
 BASE_PACKAGES := gcc g++ libc6-dev cmake ninja-build pkg-config libvtk9-dev libtet1.5-dev libosmesa6-dev libegl-dev \
 	libgl-dev libegl1 libgl1-mesa-dri libopenimageio-dev libglm-dev libjansson-dev libcmocka-dev
 BENCH_PACKAGES := python3 python3-vtk9 python3-numpy xvfb xauth
+VALGRIND_PACKAGES := valgrind
 DOCS_PACKAGES := groff gnuplot-nox
 
 CONFIGURE = cmake -S . -B $(BUILD) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-G Ninja) \
@@ -33,7 +36,7 @@ else
 packages = :
 endif
 
-.PHONY: all configure demo test bench docs install clean
+.PHONY: all configure demo test sanitize valgrind bench docs install clean
 .DEFAULT_GOAL := all
 
 all: configure
@@ -56,6 +59,21 @@ demo: all
 test: configure
 	cmake --build $(BUILD) -j $(JOBS) --target all --target all_tests
 	cd $(BUILD) && ctest --output-on-failure -j 2
+
+# RelWithDebInfo: reports name lines.
+sanitize:
+	@$(call packages,$(BASE_PACKAGES))
+	cmake -S . -B $(BUILD)/sanitize $(if $(wildcard $(BUILD)/sanitize/CMakeCache.txt),,-G Ninja) \
+		-DCMAKE_BUILD_TYPE=RelWithDebInfo -DTC_SANITIZE=ON -DTC_WERROR=$(WERROR) $(CMAKE_ARGS)
+	cmake --build $(BUILD)/sanitize -j $(JOBS) --target all --target all_tests
+	sh tests/sanitize.sh $(BUILD)/sanitize 2
+
+valgrind:
+	@$(call packages,$(BASE_PACKAGES) $(VALGRIND_PACKAGES))
+	cmake -S . -B $(BUILD)/valgrind $(if $(wildcard $(BUILD)/valgrind/CMakeCache.txt),,-G Ninja) \
+		-DCMAKE_BUILD_TYPE=RelWithDebInfo -DTC_WERROR=$(WERROR) $(CMAKE_ARGS)
+	cmake --build $(BUILD)/valgrind -j $(JOBS) --target all --target all_tests
+	sh tests/valgrind.sh $(BUILD)/valgrind
 
 bench: all
 	@$(call packages,$(BENCH_PACKAGES))

@@ -7,7 +7,8 @@ target_compile_options(tc_flags INTERFACE -Wall -Wextra -Wshadow -Wvla
   $<$<BOOL:${TC_WERROR}>:-Werror>
   -fno-math-errno)
 if(TC_SANITIZE)
-  target_compile_options(tc_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_compile_options(tc_flags INTERFACE -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all
+    -fno-omit-frame-pointer)
   target_link_options(tc_flags INTERFACE -fsanitize=address,undefined)
 endif()
 

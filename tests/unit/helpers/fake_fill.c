@@ -69,15 +69,15 @@ static void handle(void *context, tc_serve *serve, json_t *request, const tc_arr
         exit(3);
     case FAKE_THROW:
         tc_serve_error(serve, "TetGen met an internal error on this boundary");
-        return;
+        goto done;
     case FAKE_SPIN:
         spin();
         break;
     case FAKE_SWALLOW:
         swallow(serve);
-        return;
+        goto done;
     case FAKE_SILENT:
-        return;
+        goto done;
     case FAKE_MOVE:
         point[1] = nextafter(point[1], 1e9);
         break;
@@ -99,6 +99,7 @@ static void handle(void *context, tc_serve *serve, json_t *request, const tc_arr
     json_t *json = a->way == FAKE_NO_VOLUME ? json_object() : json_pack("{s:f}", "hull_volume", a->hull_volume);
     tc_serve_result(serve, json, result, a->way == FAKE_NO_TETS ? 1 : 2);
     json_decref(json);
+done:
     free(point);
     free(extra);
     free(tet);
