@@ -89,6 +89,26 @@ static void measure_cell(tc_pack_extent *out, const tc_pack *pack, const int32_t
     }
 }
 
+/* Writes an open face's corners, the least by place first: two open faces at one place, as where cells overlap, then give
+ * a ray the same depth to the last bit, and not its rounding but their numbers tell which is entered first. */
+static void pack_face(int32_t *face, float *corner, const tc_pack *pack, const int32_t *tet, int f)
+{
+    int first = 0;
+    const float *at[3];
+    for (int k = 0; k < 3; k++)
+        at[k] = pack->vertex + 4 * (size_t)tet[face_corner[f][k]];
+    for (int k = 1; k < 3; k++) {
+        const float *p = at[k], *q = at[first];
+        if (p[0] != q[0] ? p[0] < q[0] : p[1] != q[1] ? p[1] < q[1] : p[2] < q[2])
+            first = k;
+    }
+    for (int k = 0; k < 3; k++) {
+        int from = (first + k) % 3;
+        face[k] = tet[face_corner[f][from]];
+        memcpy(corner + 3 * k, at[from], 3 * sizeof *corner);
+    }
+}
+
 tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err)
 {
     memset(out, 0, sizeof *out);
@@ -126,10 +146,7 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err)
         pack_cell(out->cell + TC_PACK_CELL_INTS * i, tet, neighbour);
         for (int f = 0; f < 4; f++)
             if (neighbour[f] < 0) {
-                for (int k = 0; k < 3; k++) {
-                    face[k] = tet[face_corner[f][k]];
-                    memcpy(corner + 3 * k, out->vertex + 4 * (size_t)face[k], 3 * sizeof *corner);
-                }
+                pack_face(face, corner, out, tet, f);
                 corner += 9;
                 face[3] = (int32_t)i * TC_PACK_CELL_INTS;
                 face += TC_PACK_FACE_INTS;

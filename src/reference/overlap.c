@@ -53,6 +53,12 @@ static int run_compare(const void *a, const void *b)
     return p->tet < q->tet ? -1 : p->tet > q->tet;
 }
 
+static int tet_compare(const void *a, const void *b)
+{
+    const run *p = a, *q = b;
+    return p->tet < q->tet ? -1 : p->tet > q->tet;
+}
+
 static void name_pass(pass *out, const tc_reference *reference, const tc_hit *hit, size_t i, int end)
 {
     const int32_t *id = reference->mesh->tet + 4 * (size_t)hit[i].tet;
@@ -137,6 +143,12 @@ bool tc_hits_order(tc_hit *hit, size_t n, const tc_reference *reference, double 
         r[n_run++] = (run){t0 + unsure * sway(tet), tet, end};
     }
     qsort(r, n_run, sizeof *r, run_compare);
+    for (size_t i = 0, j; i < n_run;
+         i = j) { /* boundaries at one place: rounding tells nothing, the cell's number does */
+        for (j = i + 1; j < n_run && r[j].t < r[j - 1].t + REACH; j++) {
+        }
+        qsort(r + i, j - i, sizeof *r, tet_compare);
+    }
     for (size_t i = 0; i < n_run; i++)
         for (uint32_t at = r[i].start;;) {
             ordered[m++] = hit[at / 2];
