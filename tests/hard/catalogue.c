@@ -1,0 +1,85 @@
+/* catalogue.c: the crossing of meshes, views and functions. */
+#include "catalogue.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Views and functions that relations are tried with: whole lines in perspective and in parallel, and all colours. */
+enum { VIEW_FRONT = 0, VIEW_OBLIQUE = 2, FUNCTION_CONSTANT = 1, FUNCTION_SMOOTH = 2 };
+
+size_t hard_catalogue_meshes(void)
+{
+    size_t n;
+    tc_synth_list(&n);
+    return n;
+}
+
+const char *hard_catalogue_mesh(size_t index)
+{
+    size_t n;
+    return tc_synth_list(&n)[index].name;
+}
+
+size_t hard_catalogue_cells(size_t index, bool long_run)
+{
+    (void)index;
+    return long_run ? 20000 : 1500;
+}
+
+static hard_case plain(size_t view, size_t function)
+{
+    return (hard_case){view % hard_view_count(), function % hard_function_count(), 0, TC_INTEGRATOR_INTEGRAL};
+}
+
+static size_t short_cases(hard_case *out, size_t index, bool gpu)
+{
+    size_t n = 0, views = hard_view_count() - 1; /* the last is large */
+    for (size_t k = 0; k < 4; k++)
+        out[n++] = plain((4 * index + k) % views, 5 * index + 7 * k + 2);
+    out[n++] = plain(VIEW_FRONT, FUNCTION_CONSTANT);
+    if (gpu) {
+        out[n] = plain(VIEW_OBLIQUE, FUNCTION_CONSTANT);
+        out[n++].integrator = TC_INTEGRATOR_TABLE;
+    }
+    for (size_t k = 0; k < 2; k++) {
+        out[n] = plain((index + k) % 2 ? VIEW_FRONT : VIEW_OBLIQUE, FUNCTION_SMOOTH);
+        out[n++].relation = 1 + (int)((2 * index + k) % (HARD_RELATIONS - 1));
+    }
+    return n;
+}
+
+static size_t long_cases(hard_case *out, size_t index, bool gpu)
+{
+    size_t n = 0;
+    for (size_t v = 0; v < hard_view_count(); v++)
+        if (!hard_view_is_large(v) || (gpu && index % 8 == 0))
+            out[n++] = plain(v, index + v);
+    for (size_t f = 0; f < hard_function_count(); f++)
+        out[n++] = plain((index + f) % 3, f);
+    for (size_t v = 0; v < 3 && gpu; v++) {
+        out[n] = plain(v, FUNCTION_CONSTANT);
+        out[n++].integrator = TC_INTEGRATOR_TABLE;
+    }
+    for (int r = 1; r < HARD_RELATIONS; r++)
+        for (size_t k = 0; k < 2; k++) {
+            out[n] = plain(k ? VIEW_FRONT : VIEW_OBLIQUE, FUNCTION_SMOOTH);
+            out[n++].relation = r;
+        }
+    return n;
+}
+
+size_t hard_catalogue_cases(hard_case *out, size_t index, bool long_run, bool gpu)
+{
+    size_t n = long_run ? long_cases(out, index, gpu) : short_cases(out, index, gpu);
+    for (size_t i = 0; i < n; i++)
+        if (out[i].relation == HARD_REVERSED)
+            out[i].view = VIEW_OBLIQUE; /* perspective rays have no common other side */
+    return n;
+}
+
+void hard_case_name(char *out, size_t capacity, const char *mesh, const hard_case *c)
+{
+    snprintf(out, capacity, "%s; %s; %s%s%s%s", mesh, hard_view_name(c->view), hard_function_name(c->function),
+             c->relation ? "; " : "", c->relation ? hard_relation_name(c->relation) : "",
+             c->integrator == TC_INTEGRATOR_TABLE ? "; table" : "");
+}
