@@ -26,12 +26,12 @@ typedef struct tc_job {
     double map[2];                               /* packed scalar → x = s*map[0] + map[1] */
     double texel[3][2];                          /* table: coordinate → texture coordinate, by axis */
     double grid[2];                              /* running integrals: intervals between nodes, length of one */
-    double near, thick; /* running integrals: smallest difference, thickest piece; thick 0: never split */
-    bool rough;         /* running integrals: the function has steps or spikes */
+    double near;        /* running integrals: smallest difference */
+    bool pieces;        /* integrate piece by piece of the function; else by running integrals over nodes */
+    int n_piece;
     bool nonfinite;     /* some scalars are NaN: their cells contribute nothing, */
     bool has_nan_color; /* … or nan_color: r, g, b, attenuation per unit distance */
     double nan_color[4];
-    double most[3];     /* running integrals: largest r, g, b of the function */
     double mean[4];     /* running integrals: mean slope */
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */

@@ -43,15 +43,17 @@ static void bind_transfer(const tc_job *job, GLuint program)
         tc_pass_vec2(gl, program, "tf_texel[0]", job->texel[0][0], job->texel[0][1]);
         tc_pass_vec2(gl, program, "tf_texel[1]", job->texel[1][0], job->texel[1][1]);
         tc_pass_vec2(gl, program, "tf_texel[2]", job->texel[2][0], job->texel[2][1]);
+    } else if (job->pieces) {
+        int half = 1;
+        while (2 * half < job->n_piece)
+            half *= 2;
+        tc_pass_fetch(gl, program, "tf_pieces", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
+        tc_pass_int(gl, program, "tf_piece_count", job->n_piece);
+        tc_pass_int(gl, program, "tf_piece_half", half);
     } else {
         tc_pass_fetch(gl, program, "tf_nodes", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
         tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
         tc_pass_float(gl, program, "tf_near", job->near);
-        if (job->rough || job->thick > 0)
-            gl->Uniform3f(gl->GetUniformLocation(program, "tf_most"), (float)job->most[0], (float)job->most[1],
-                          (float)job->most[2]);
-        if (job->thick > 0)
-            tc_pass_float(gl, program, "tf_thick", job->thick);
         tc_pass_vec4(gl, program, "tf_mean", job->mean);
     }
 }
@@ -76,7 +78,9 @@ static tc_status get_programs(loop *l)
     char defines[512], alias[128];
     tc_job_defines(defines, sizeof defines, job);
     snprintf(alias, sizeof alias, "integrator.glsl=%s%s",
-             job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl" : "integrate_integral.glsl",
+             job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl"
+             : job->pieces                          ? "integrate_pieces.glsl"
+                                                    : "integrate_integral.glsl",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
     const tc_program_source march = {"screen.vert", "march.frag", defines, alias};
     const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL}, lost = {"screen.vert", "lost.frag", "", NULL};

@@ -9,13 +9,10 @@
 
 enum { INTERVALS_LEAST = 8192, INTERVALS_MOST = 65536 }; /* powers of two: places of nodes are exact in float */
 static const double INTERVALS_A_RISE = 64;               /* over which the function may go from none to all */
-static const double THICK = 0.12;                        /* optical depth above which a segment is split … */
-static const double THICK_ROUGH = 0.08;                  /* the same where the function has steps or spikes */
-static const double UNSPLIT_ERROR = 1e-3;                /* … in pictures where leaving it whole might err by more, */
+static const double UNSPLIT_ERROR = 1e-3;                /* running integrals are taken where a picture errs by less, */
 static const double UNSPLIT_SHARE_WILD = 0.04;
-static const double UNSPLIT_SHARE = 0.005;    /* as needs_split reckons */
+static const double UNSPLIT_SHARE = 0.005;    /* as needs_pieces reckons */
 static const double NEAR_LEAST = 1.0 / 16384; /* smallest difference of x that cumulatives resolve */
-static const double NEAR_ROUGH = 1.0 / 65536; /* the same for steps and spikes, whose cumulatives are small */
 
 static tc_integrator choose(const tc_render_options *options, tc_render_stats *stats)
 {
@@ -40,7 +37,7 @@ static void find_span(double span[2], const tc_transfer_gpu_request *request)
     }
 }
 
-/* Enough nodes to resolve the steepest rise; a step (two knots at one scalar) asks for all that may be had. */
+/* Enough nodes to resolve the steepest rise; more than INTERVALS_MOST where no number is enough. */
 static int choose_nodes(const tc_transfer *tf, const double span[2])
 {
     double most = 0, steepest = 0;
@@ -64,7 +61,7 @@ static int choose_nodes(const tc_transfer *tf, const double span[2])
  * (integrate_integral.glsl). Over 12 pairs of mesh and function the largest picture error, against the reference, was
  * at the most 0.0046 t min(1, t) times the change of colour, mostly a tenth of it. Where the colour comes and goes
  * within a cell that does not hold; t^2/24 is a step's share, and UNSPLIT_SHARE_WILD about that. */
-static bool needs_split(const tc_transfer_gpu_request *request)
+static bool needs_pieces(const tc_transfer_gpu_request *request)
 {
     const tc_transfer *tf = request->transfer;
     double range = request->scalar[1] - request->scalar[0];
@@ -120,7 +117,9 @@ static void bind(tc_job *job, const tc_transfer_gpu *t)
         job->texel[2][0] /= t->length_max;
     job->grid[0] = t->size[0] - 1;
     job->grid[1] = 1 / job->grid[0];
-    job->near = fmax(job->grid[1], t->size[0] > INTERVALS_MOST ? NEAR_ROUGH : NEAR_LEAST);
+    job->near = fmax(job->grid[1], NEAR_LEAST);
+    job->pieces = t->pieces;
+    job->n_piece = t->size[0];
 }
 
 static tc_status build_table(tc_transfer_gpu *t, const tc_transfer_gpu_request *request, const tc_gl *gl,
@@ -157,6 +156,21 @@ static tc_status build_running(tc_transfer_gpu *t, const tc_transfer_gpu_request
     return status;
 }
 
+static tc_status build_pieces(tc_transfer_gpu *t, const tc_transfer_gpu_request *request, const tc_gl *gl,
+                              tc_render_stats *stats, tc_error *err)
+{
+    tc_pieces pieces;
+    double start = tc_now_ms();
+    tc_status status = tc_pieces_build(&pieces, request->transfer, t->span, err);
+    if (status != TC_OK)
+        return status;
+    stats->ms_table = tc_now_ms() - start;
+    t->size[0] = (int)pieces.n;
+    status = tc_gpu_pieces_upload(&t->textures, gl, &pieces, err);
+    tc_pieces_finish(&pieces);
+    return status;
+}
+
 tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_transfer_gpu_request *request,
                                  const tc_gl *gl, tc_render_stats *stats, tc_error *err)
 {
@@ -175,10 +189,11 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         wanted.length_max = request->length_max > 0 ? request->length_max : 1;
     } else {
         wanted.size[0] = choose_nodes(request->transfer, wanted.span);
+        wanted.pieces = wanted.size[0] > INTERVALS_MOST || needs_pieces(request);
     }
     bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
-                memcmp(t->size, wanted.size, sizeof t->size) == 0 && t->length_max == wanted.length_max &&
-                memcmp(t->scalar, wanted.scalar, sizeof t->scalar) == 0;
+                t->pieces == wanted.pieces && (t->pieces || memcmp(t->size, wanted.size, sizeof t->size) == 0) &&
+                t->length_max == wanted.length_max && memcmp(t->scalar, wanted.scalar, sizeof t->scalar) == 0;
     tc_status status = TC_OK;
     if (!same) {
         tc_transfer_gpu_finish(t, gl);
@@ -186,6 +201,7 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         t->serial = 0;
         double start = tc_now_ms();
         status = wanted.integrator == TC_INTEGRATOR_TABLE ? build_table(t, request, gl, stats, err)
+                 : wanted.pieces                          ? build_pieces(t, request, gl, stats, err)
                                                           : build_running(t, request, gl, stats, err);
         if (status != TC_OK)
             return status;
@@ -194,15 +210,6 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         stats->ms_upload = (stats->ms_upload > 0 ? stats->ms_upload : 0) + upload;
     }
     bind(job, t);
-    job->rough = t->integrator == TC_INTEGRATOR_INTEGRAL && t->size[0] > INTERVALS_MOST;
-    bool split = t->integrator == TC_INTEGRATOR_INTEGRAL && needs_split(request);
-    job->thick = !split ? 0 : job->rough ? THICK_ROUGH : THICK;
-    for (size_t i = 0; i < request->transfer->n; i++) {
-        const tc_knot *k = &request->transfer->knot[i];
-        const double color[3] = {k->r, k->g, k->b};
-        for (int c = 0; c < 3; c++)
-            job->most[c] = i == 0 ? color[c] : fmax(job->most[c], color[c]);
-    }
     return status;
 }
 

@@ -19,7 +19,8 @@ typedef struct tc_transfer_gpu {
     uint64_t serial; /* of the transfer function uploaded; 0: none */
     tc_integrator integrator;
     tc_table_format format;
-    int size[3];
+    int size[3]; /* of the table; nodes; pieces */
+    bool pieces;
     double scalar[2], length_max, span[2], mean[4];
 } tc_transfer_gpu;
 

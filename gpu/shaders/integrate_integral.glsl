@@ -15,13 +15,6 @@ uniform vec2 tf_grid;           // intervals between nodes, a power of two, and 
 // Below this difference of x the mean is the average of the ends: the difference of two cumulatives would have lost its
 // digits.
 uniform float tf_near;
-#if defined(TF_ROUGH) || defined(TF_SPLIT)
-uniform vec3 tf_most; // largest colour of the function: no more light comes than opacity and colours allow
-#endif
-#ifdef TF_SPLIT // some segments may be optically thick
-uniform float tf_thick; // a piece thicker than this is split
-const int SPLIT_MOST = 400;
-#endif
 
 struct TfSample {
     float x;
@@ -82,7 +75,9 @@ vec4 tf_mean_between(TfSample front, TfSample back)
 #ifdef TF_EXTEND
     near = near || front.beyond * back.beyond > 0.0; // constant there
 #endif
-    vec4 a = tf_mean + 0.5 * (front.point + back.point); vec4 b = tf_mean + (back.cumulative - front.cumulative) * (1.0 / (near ? 1.0 : dx)); return near ? a : b;
+    vec4 ends = tf_mean + 0.5 * (front.point + back.point);
+    vec4 between = tf_mean + (back.cumulative - front.cumulative) * (1.0 / (near ? 1.0 : dx));
+    return near ? ends : between;
 }
 
 // Adds a piece of optical depth t from the last sample to back.
@@ -92,21 +87,9 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float t)
     float transmittance = exp(-i.depth);
     float inverse = mean.a > 0.0 ? 1.0 / mean.a : 0.0;
     float k = i.transmittance * t * t / (12.0 + t * (6.0 + 2.0 * t));
-#ifdef TF_ROUGH
-    // Steps and spikes: the ends may be far thicker than the mean, so their colours are compared, not their emissions.
-    vec3 color = mean.rgb * inverse;
-    vec4 back_point = tf_mean + back.point, front_point = tf_mean + i.front.point;
-    vec3 drift = (back_point.rgb - color * back_point.a) / max(max(back_point.a, mean.a), 1.0e-30) -
-                 (front_point.rgb - color * front_point.a) / max(max(front_point.a, mean.a), 1.0e-30);
-    vec3 c = color * (i.transmittance - transmittance) - k * drift;
-#else
     float e = (i.transmittance - transmittance) * inverse;
     k *= inverse;
     vec3 c = mean.rgb * (e + k * inverse * (back.point.a - i.front.point.a)) - k * (back.point.rgb - i.front.point.rgb);
-#endif
-#if defined(TF_ROUGH) || defined(TF_SPLIT)
-    c = clamp(c, vec3(0.0), (i.transmittance - transmittance) * tf_most);
-#endif
     i.rgb += c;
     i.transmittance = transmittance;
     i.front = back;
@@ -115,35 +98,9 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float t)
 // A segment of length l (unit distances) over which the scalar runs linearly from the last one to s.
 void integral_add(inout Integral i, float s, float l)
 {
-#ifdef TF_SPLIT
-    // Pieces thin enough for the drift to be linear. A piece that proves too thick is shortened, up to three times.
-    float s0 = (i.front.x - tf_map.y) / tf_map.x;
-    float from = 0.0, to = 1.0;
-    int shortened = 0;
-    for (int n = 0; n < SPLIT_MOST; n++) {
-        TfSample back = tf_sample(to < 1.0 ? mix(s0, s, to) : s);
-        vec4 mean = tf_mean_between(i.front, back);
-        float t = max(l * (to - from) * mean.a, 0.0);
-        if (t > tf_thick && shortened < 3 && n < SPLIT_MOST - 4) {
-            to = from + (to - from) * max(0.75 * tf_thick / t, 1.0e-3);
-            shortened++;
-        } else {
-            integral_piece(i, back, mean, t);
-            float piece = to - from;
-            from = to;
-            to = min(from + 2.0 * piece, 1.0); // the next one is likely to be much like it
-            shortened = 0;
-            if (from >= 1.0 || i.transmittance < 1.0e-6)
-                break;
-        }
-    }
-    if (i.transmittance < 1.0e-6)
-        integral_enter(i, s);
-#else
     TfSample back = tf_sample(s);
     vec4 mean = tf_mean_between(i.front, back);
     integral_piece(i, back, mean, max(l * mean.a, 0.0));
-#endif
 }
 
 #ifdef NAN_COLOR

@@ -174,6 +174,18 @@ void suite_ray(double origin[3], double direction[3], const tc_camera *camera, i
     tc_vec_normalize(direction);
 }
 
+tc_status suite_try_audit(tc_audit_ray *out, tc_error *err)
+{
+    return tc_render_audit(out, suite.renderer, err);
+}
+
+void suite_audit(tc_audit_ray *out)
+{
+    tc_error err = {0};
+    if (suite_try_audit(out, &err) != TC_OK)
+        fail_msg("%s", err.text);
+}
+
 /* nan_color: of missing values, may be NULL. */
 static double color_excess(const tc_image *image, const tc_transfer *tf, const double *nan_color)
 {

@@ -53,6 +53,9 @@ void suite_ray(double origin[3], double direction[3], const tc_camera *camera, i
 /* Renders and checks what must hold of every picture (above). stats may be NULL. */
 tc_image *suite_render(tc_render_stats *stats, const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,
                        const tc_render_options *options);
+/* The audit of the last picture, out [height][width]; the test ends where there is none. */
+void suite_audit(tc_audit_ray *out);
+tc_status suite_try_audit(tc_audit_ray *out, tc_error *err);
 /* By how much a colour exceeds alpha times the function's largest in that channel; 0 where none does. */
 double suite_color_excess(const tc_image *image, const tc_transfer *tf);
 /* The largest difference of a channel. */
