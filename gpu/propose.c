@@ -2,7 +2,13 @@
  *
  * A triangle with no sharp corner is enlarged by moving its edges out by a margin (three corners still); a small one
  * becomes the rectangle around it; a long thin one its triangle and a quad about each edge, since moved edges would
- * meet far away. The set of proposed pixels is always larger than that of the rays through the face. */
+ * meet far away. The set of proposed pixels is always larger than that of the rays through the face.
+ *
+ * A line through the eye meets a face before the eye or, where the eye is in the mesh, behind it: behind, the face is
+ * seen through the eye, turned by half a turn, at the same place x/w, y/w. A face that crosses the eye's plane, or
+ * reaches far beyond the picture, is cut in homogeneous coordinates (Blinn and Newell 1978) by the sides of a cone
+ * about the picture's own, once before and once behind the eye; what is left is finite on the screen unless it comes
+ * near the eye itself. */
 #include "gpu/propose.h"
 
 #include "core/memory.h"
@@ -11,12 +17,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CORNERS = 21 };           /* that one face may need */
+enum {
+    MOST_CUT = 7,                                          /* corners of a triangle cut by four planes */
+    MOST_CORNERS = 2 * (3 * (MOST_CUT - 2) + 6 * MOST_CUT) /* that one face may need */
+};
 static const float MARGIN = 0.0625f;  /* pixels: how far a face is enlarged beside its rounding error */
 static const float ROUNDING = 1e-6f;  /* of clip coordinates, relative to their terms */
 static const float SMALL = 6.0f;      /* pixels: a face this small becomes a rectangle when it has a sharp corner */
 static const float MITRE_SIN = 0.03f; /* sine of the sharpest corner whose edges are moved */
 static const float W_MIN = 1e-4f; /* of the largest w: nearer to the eye's plane a place on the screen has no meaning */
+static const float BEYOND = 16;   /* half pictures: a face that reaches farther from the middle is cut */
+static const float CONE = 2;      /* half pictures: where it is cut */
+static const float APART = 8;     /* roundings: how much wider the cone is at the eye */
 
 typedef struct point {
     float x, y;
@@ -26,6 +38,7 @@ typedef struct screen {
     float width, height;
     const float *clip;
     float rounding; /* pixels at w = 1 */
+    float apex[2];  /* half widths of the cone at the eye, in clip coordinates */
     float margin;   /* pixels, of the face at hand */
 } screen;
 
@@ -106,6 +119,10 @@ static void propose_face(tc_proposals *out, const screen *s, int32_t face, const
         return;
     if (floorf(hi_x - 0.5f) < ceilf(lo_x - 0.5f) || floorf(hi_y - 0.5f) < ceilf(lo_y - 0.5f))
         return; /* between the rays */
+    if (s->margin > s->width + s->height) {
+        add_screen(out, s, face); /* rounding alone spans the picture */
+        return;
+    }
     bool blunt = area > 0;
     for (int i = 0; i < 3 && blunt; i++) {
         int j = (i + 1) % 3;
@@ -125,26 +142,102 @@ static void propose_face(tc_proposals *out, const screen *s, int32_t face, const
     }
 }
 
-/* Screen place of a vertex; gives w. */
-static float project(point *out, const screen *s, const float *vertex)
+/* A place in clip space; z is not needed. */
+typedef struct place {
+    float x, y, w;
+} place;
+
+static place transform(const screen *s, const float *vertex)
 {
     const float *m = s->clip;
-    float x = m[0] * vertex[0] + m[4] * vertex[1] + m[8] * vertex[2] + m[12];
-    float y = m[1] * vertex[0] + m[5] * vertex[1] + m[9] * vertex[2] + m[13];
-    float w = m[3] * vertex[0] + m[7] * vertex[1] + m[11] * vertex[2] + m[15];
-    out->x = (x / w * 0.5f + 0.5f) * s->width;
-    out->y = (y / w * 0.5f + 0.5f) * s->height;
-    return w;
+    return (place){m[0] * vertex[0] + m[4] * vertex[1] + m[8] * vertex[2] + m[12],
+                   m[1] * vertex[0] + m[5] * vertex[1] + m[9] * vertex[2] + m[13],
+                   m[3] * vertex[0] + m[7] * vertex[1] + m[11] * vertex[2] + m[15]};
 }
 
-/* Rounding error of a place on the screen, in pixels, where w = 1. */
-static float clip_rounding(const screen *s)
+static point project(const screen *s, place h)
+{
+    return (point){(h.x / h.w * 0.5f + 0.5f) * s->width, (h.y / h.w * 0.5f + 0.5f) * s->height};
+}
+
+/* How far inside side k of the cone: right, left, top, bottom. */
+static float inside(const screen *s, place h, int k)
+{
+    float across = k < 2 ? h.x : h.y;
+    return CONE * h.w + s->apex[k / 2] - (k % 2 ? -across : across);
+}
+
+/* Cuts the convex polygon p [*n] by side k. */
+static void cut(place *p, int *n, const screen *s, int k)
+{
+    place out[MOST_CUT + 1];
+    int count = 0;
+    for (int i = 0; i < *n; i++) {
+        place a = p[i], b = p[(i + 1) % *n];
+        float da = inside(s, a, k), db = inside(s, b, k);
+        if (da >= 0)
+            out[count++] = a;
+        if ((da >= 0) != (db >= 0)) {
+            float t = da / (da - db);
+            out[count++] = (place){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.w + t * (b.w - a.w)};
+        }
+    }
+    *n = count < MOST_CUT ? count : MOST_CUT; /* rounding cannot make more of a triangle and four planes */
+    memcpy(p, out, (size_t)*n * sizeof *p);
+}
+
+/* Proposes the part of a face before the eye (side 1) or behind it (side -1); true: all of the screen. */
+static bool propose_part(tc_proposals *out, screen *s, int32_t face, const place corner[3], float side)
+{
+    place p[MOST_CUT];
+    int n = 3;
+    for (int i = 0; i < 3; i++)
+        p[i] = (place){side * corner[i].x, side * corner[i].y, side * corner[i].w};
+    for (int k = 0; k < 4 && n > 0; k++)
+        cut(p, &n, s, k);
+    if (n == 0)
+        return false;
+    float nearest = INFINITY;
+    for (int i = 0; i < n; i++)
+        nearest = fminf(nearest, p[i].w);
+    s->margin = MARGIN + s->rounding / fmaxf(nearest, W_MIN);
+    if (!(nearest > W_MIN) || s->margin > s->width + s->height) {
+        add_screen(out, s, face); /* it comes near the eye: it may be anywhere */
+        return true;
+    }
+    point at[MOST_CUT];
+    float area = 0, around = 0, lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < n; i++) {
+        at[i] = project(s, p[i]);
+        lo[0] = fminf(lo[0], at[i].x - s->margin), hi[0] = fmaxf(hi[0], at[i].x + s->margin);
+        lo[1] = fminf(lo[1], at[i].y - s->margin), hi[1] = fmaxf(hi[1], at[i].y + s->margin);
+    }
+    for (int i = 0; i < n; i++) {
+        point e = minus(at[(i + 1) % n], at[i]);
+        area += cross(minus(at[i], at[0]), e);
+        around += length_of(e);
+    }
+    if (hi[0] < 0 || hi[1] < 0 || lo[0] > s->width || lo[1] > s->height)
+        return false;
+    if (area < -1 - (0.02f + 4 * s->margin) * (around + s->margin))
+        return false; /* clearly looks away */
+    for (int i = 2; i < n; i++)
+        add_triangle(out, s, face, at[0], at[i - 1], at[i]);
+    for (int i = 0; i < n; i++)
+        add_edge(out, s, face, at[i], at[(i + 1) % n]);
+    return false;
+}
+
+/* Rounding errors of clip coordinates: on the screen, in pixels where w = 1, and at the eye. */
+static void measure_rounding(screen *s)
 {
     float terms[2] = {0, 0};
     for (int k = 0; k < 4; k++)
         for (int row = 0; row < 2; row++)
             terms[row] += fabsf(s->clip[4 * k + row]);
-    return ROUNDING * 0.5f * fmaxf(terms[0] * s->width, terms[1] * s->height);
+    s->rounding = ROUNDING * 0.5f * fmaxf(terms[0] * s->width, terms[1] * s->height);
+    for (int row = 0; row < 2; row++)
+        s->apex[row] = fmaxf(CONE * W_MIN, APART * ROUNDING * terms[row]);
 }
 
 /* The pixels that hold all corners, a pixel more, within the image. */
@@ -176,7 +269,7 @@ tc_status tc_propose(tc_proposals *out, const tc_frame *frame, int width, int he
                      size_t n_face, tc_error *err)
 {
     screen s = {.width = (float)width, .height = (float)height, .clip = frame->clip};
-    s.rounding = clip_rounding(&s);
+    measure_rounding(&s);
     out->n = 0;
     for (size_t i = 0; i < n_face; i++) {
         if (out->n + MOST_CORNERS > out->capacity) {
@@ -187,22 +280,27 @@ tc_status tc_propose(tc_proposals *out, const tc_frame *frame, int width, int he
             out->corner = grown;
             out->capacity = capacity;
         }
-        point p[3];
-        float nearest = INFINITY, farthest = -INFINITY;
+        place h[3];
+        float least = INFINITY, most = -INFINITY, across = 0;
         for (int k = 0; k < 3; k++) {
-            float w = project(&p[k], &s, corner + 9 * i + 3 * (size_t)k);
-            nearest = fminf(nearest, w);
-            farthest = fmaxf(farthest, w);
+            h[k] = transform(&s, corner + 9 * i + 3 * (size_t)k);
+            least = fminf(least, h[k].w);
+            most = fmaxf(most, h[k].w);
+            across = fmaxf(across, fmaxf(fabsf(h[k].x), fabsf(h[k].y)));
         }
-        s.margin = MARGIN + s.rounding / fmaxf(fabsf(nearest), W_MIN);
-        if (nearest > W_MIN) {
+        bool before = least > W_MIN, behind = most < -W_MIN;
+        float nearest = before ? least : -most;
+        if (behind && !frame->eye_inside)
+            continue;
+        if ((before || behind) && across <= BEYOND * nearest) {
+            const point p[3] = {project(&s, h[0]), project(&s, h[1]), project(&s, h[2])};
+            s.margin = MARGIN + s.rounding / nearest;
             propose_face(out, &s, (int32_t)i, p);
-        } else if (farthest > -W_MIN) {
-            add_screen(out, &s, (int32_t)i); /* crosses the eye's plane: it may be anywhere */
-        } else if (frame->eye_inside) {
-            /* Behind the eye the ray's line goes on: the face is seen through the eye, turned by half a turn. */
-            propose_face(out, &s, (int32_t)i, p);
+            continue;
         }
+        bool all = !behind && propose_part(out, &s, (int32_t)i, h, 1);
+        if (!all && !before && frame->eye_inside)
+            propose_part(out, &s, (int32_t)i, h, -1);
     }
     bound(out, width, height);
     return TC_OK;

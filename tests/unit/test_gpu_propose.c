@@ -203,6 +203,66 @@ static void needles_are_not_proposed(void **state)
     finish(&f);
 }
 
+/* Proposals of a face for all pixels, whatever it is. */
+static size_t whole_screens(const fixture *f, const tc_camera *camera)
+{
+    tc_rays rays;
+    tc_frame frame;
+    tc_proposals proposals = {0};
+    size_t n = 0;
+    assert_int_equal(tc_rays_from_camera(&rays, camera, 512, 512, NULL), TC_OK);
+    tc_frame_build(&frame, &rays, f->pack.center, f->pack.scale);
+    assert_int_equal(tc_propose(&proposals, &frame, 512, 512, f->pack.face_corner, f->pack.n_face, NULL), TC_OK);
+    for (size_t i = 0; i < proposals.n; i += 3) {
+        int far = 0;
+        for (size_t k = i; k < i + 3; k++)
+            far += proposals.corner[k].x >= 3 || proposals.corner[k].y >= 3;
+        n += far == 2;
+    }
+    tc_proposals_finish(&proposals);
+    return n;
+}
+
+static void an_eye_inside_asks_all_faces_about_all_pixels(void **state)
+{
+    (void)state;
+    static const double eyes[][3] = {{0.1, 0.2, 0.05}, {-0.6, 0.3, 0.1}, {0.7, -0.2, 0.4}};
+    fixture f = synth("ball", 30000);
+    for (int e = 0; e < 3; e++)
+        for (int parallel = 0; parallel < 2; parallel++) {
+            const tc_camera camera = {.position = {eyes[e][0], eyes[e][1], eyes[e][2]},
+                                      .focal_point = {0.9, 0.7, -0.3},
+                                      .view_up = {0, 1, 0},
+                                      .view_angle = 60,
+                                      .parallel_scale = 0.5,
+                                      .parallel = parallel};
+            assert_int_equal(whole_screens(&f, &camera), 0);
+        }
+    finish(&f);
+}
+
+static void eyes_on_the_boundary_or_narrow_views_propose_too_little(void **state)
+{
+    (void)state;
+    static const double eyes[][3] = {{0, 0, 0}, {0.5, 0, 0},     {0.41, 0.37, 1},
+                                     {1, 1, 1}, {0.5, 0.5, 0.5}, {0.3, 1, 0.7}};
+    static const double to[][3] = {{1, 0.2, 0.3}, {-0.5, 1, 0.9}, {0.5, 0.5, -1}, {0.31, 0.72, 0.4}};
+    static const double angles[] = {179, 100, 20, 1e-3, 1e-6, 1e-8};
+    fixture f = synth("kuhn", 384);
+    size_t hits = 0;
+    for (size_t e = 0; e < sizeof eyes / sizeof *eyes; e++)
+        for (size_t t = 0; t < sizeof to / sizeof *to; t++)
+            for (size_t a = 0; a < sizeof angles / sizeof *angles; a++) {
+                const tc_camera camera = {.position = {eyes[e][0], eyes[e][1], eyes[e][2]},
+                                          .focal_point = {to[t][0], to[t][1], to[t][2]},
+                                          .view_up = {0.1, 1, 0.2},
+                                          .view_angle = angles[a]};
+                hits += check(&f, &camera);
+            }
+    assert_true(hits > 50000);
+    finish(&f);
+}
+
 static void faces_that_look_away_are_proposed(void **state)
 {
     (void)state;
@@ -328,6 +388,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_that_see_a_face_are_not_proposed),
         cmocka_unit_test(needles_are_not_proposed),
+        cmocka_unit_test(an_eye_inside_asks_all_faces_about_all_pixels),
+        cmocka_unit_test(eyes_on_the_boundary_or_narrow_views_propose_too_little),
         cmocka_unit_test(faces_that_look_away_are_proposed),
         cmocka_unit_test(rays_of_the_frame_are_beside_the_cameras),
         cmocka_unit_test(clip_space_is_beside_the_rays),
