@@ -28,4 +28,4 @@ static double chord(const double *origin, const double *direction, size_t n_cell
     return tc_octa_chord(&octa, origin, direction);
 }
 
-const tc_synth_generator tc_synth_ball = {200000, build, field, chord};
+const tc_synth_generator tc_synth_ball = {200000, build, field, chord, TC_SYNTH_SOUND | TC_SYNTH_CONVEX, 0};

@@ -1,6 +1,7 @@
 /* blocks.c: unions of axis-aligned boxes, divided by a jittered Kuhn lattice. */
 #include "blocks.h"
 
+#include "chord.h"
 #include "core/memory.h"
 #include "lattice.h"
 
@@ -117,7 +118,7 @@ tc_status tc_blocks_build(tc_synth_soup *out, const tc_blocks *blocks, size_t n_
     for (int a = 0; a < 3 && !status; a++)
         status = grid_axis(&g, a, h, err);
     if (!status) {
-        tc_lattice lattice = {{g.n[0], g.n[1], g.n[2]}, false, grid_keep, grid_place, &g};
+        tc_lattice lattice = {{g.n[0], g.n[1], g.n[2]}, false, grid_keep, grid_place, &g, TC_SPLIT_KUHN};
         status = tc_lattice_build(out, &lattice, err);
     }
     for (int a = 0; a < 3; a++) {
@@ -125,20 +126,6 @@ tc_status tc_blocks_build(tc_synth_soup *out, const tc_blocks *blocks, size_t n_
         free(g.x[a]);
     }
     return status;
-}
-
-/* Narrows [*t0, *t1] to one slab; a parallel line in its lower plane is inside, in its upper one outside, so that of
- * two neighbouring blocks one counts it. */
-static void clip_slab(double *t0, double *t1, double lo, double hi, double origin, double direction)
-{
-    if (direction == 0) {
-        if (origin < lo || origin >= hi)
-            *t1 = -HUGE_VAL;
-        return;
-    }
-    double a = (lo - origin) / direction, b = (hi - origin) / direction;
-    *t0 = fmax(*t0, fmin(a, b));
-    *t1 = fmin(*t1, fmax(a, b));
 }
 
 double tc_blocks_chord(const tc_blocks *blocks, const double *origin, const double *direction)
@@ -149,12 +136,9 @@ double tc_blocks_chord(const tc_blocks *blocks, const double *origin, const doub
             for (int i = 0; i < blocks->n[0]; i++) {
                 if (!blocks->keep(i, j, k))
                     continue;
-                int at[3] = {i, j, k};
-                double t0 = -HUGE_VAL, t1 = HUGE_VAL;
-                for (int a = 0; a < 3; a++)
-                    clip_slab(&t0, &t1, blocks->plane[a][at[a]], blocks->plane[a][at[a] + 1], origin[a], direction[a]);
-                if (t1 > t0)
-                    length += t1 - t0;
+                const double lo[3] = {blocks->plane[0][i], blocks->plane[1][j], blocks->plane[2][k]};
+                const double hi[3] = {blocks->plane[0][i + 1], blocks->plane[1][j + 1], blocks->plane[2][k + 1]};
+                length += tc_chord_box(lo, hi, origin, direction);
             }
     return length;
 }

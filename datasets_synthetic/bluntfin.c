@@ -61,4 +61,4 @@ static double chord(const double *origin, const double *direction, size_t n_cell
     return tc_prism_chord(&channel, origin, direction, n_cells);
 }
 
-const tc_synth_generator tc_synth_bluntfin = {190000, build, field, chord};
+const tc_synth_generator tc_synth_bluntfin = {190000, build, field, chord, TC_SYNTH_SOUND, 0};

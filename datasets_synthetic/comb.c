@@ -38,4 +38,4 @@ static double chord(const double *origin, const double *direction, size_t n_cell
     return tc_blocks_chord(&b, origin, direction);
 }
 
-const tc_synth_generator tc_synth_comb = {30000, build, field, chord};
+const tc_synth_generator tc_synth_comb = {30000, build, field, chord, TC_SYNTH_SOUND, 0};

@@ -26,4 +26,4 @@ static double chord(const double *origin, const double *direction, size_t n_cell
     return tc_blocks_chord(&cube, origin, direction);
 }
 
-const tc_synth_generator tc_synth_kuhn = {48000, build, field, chord};
+const tc_synth_generator tc_synth_kuhn = {48000, build, field, chord, TC_SYNTH_SOUND | TC_SYNTH_CONVEX, 0};

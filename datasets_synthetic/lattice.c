@@ -1,4 +1,4 @@
-/* lattice.c: hexahedral lattices split into tets by Kuhn's rule.
+/* lattice.c: hexahedral lattices split into tets.
  * Kuhn, "Some combinatorial lemmas in topology", 1960: one tet per order in which the three axes are walked. */
 #include "lattice.h"
 
@@ -10,6 +10,22 @@
  * that all are positive. */
 static const unsigned char kuhn_tet[6][4] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7},
                                              {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 6, 4, 7}};
+
+/* The same for five tets: cubes whose indices add up to an even number, then the others. */
+static const unsigned char five_tet[2][5][4] = {
+    {{0, 3, 6, 5}, {1, 3, 0, 5}, {2, 0, 3, 6}, {4, 6, 5, 0}, {7, 5, 6, 3}},
+    {{1, 2, 4, 7}, {0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}},
+};
+
+static size_t tets_per_cube(const tc_lattice *lattice)
+{
+    return lattice->split == TC_SPLIT_FIVE ? 5 : 6;
+}
+
+static const unsigned char *tet_corners(const tc_lattice *lattice, const size_t *cube, size_t t)
+{
+    return lattice->split == TC_SPLIT_FIVE ? five_tet[(cube[0] + cube[1] + cube[2]) & 1][t] : kuhn_tet[t];
+}
 
 typedef struct walk {
     const tc_lattice *lattice;
@@ -51,9 +67,9 @@ static size_t for_kept_cubes(const walk *w, int32_t *mark, int32_t *tet)
                         mark[corner[b]] = 0;
                     continue;
                 }
-                for (int t = 0; t < 6; t++)
+                for (size_t t = 0; t < tets_per_cube(lattice); t++)
                     for (int v = 0; v < 4; v++)
-                        *tet++ = mark[corner[kuhn_tet[t][v]]];
+                        *tet++ = mark[corner[tet_corners(lattice, c, t)[v]]];
             }
     return n;
 }
@@ -73,7 +89,7 @@ tc_status tc_lattice_build(tc_synth_soup *out, const tc_lattice *lattice, tc_err
     size_t n_cube = for_kept_cubes(&w, id, NULL), n_vertex = 0;
     for (size_t i = 0; i < n_lattice; i++)
         n_vertex += id[i] == 0;
-    tc_status status = tc_synth_soup_reserve(out, n_vertex, 6 * n_cube, err);
+    tc_status status = tc_synth_soup_reserve(out, n_vertex, tets_per_cube(lattice) * n_cube, err);
     if (status)
         goto done;
 

@@ -143,6 +143,10 @@ static void for_tets(const cage *c, int32_t *tet)
 
 static void place(double *out, const tc_octa *octa, const int *p, uint64_t index, uint64_t seed)
 {
+    for (int a = 0; a < 3 && octa->grid > 0; a++)
+        out[a] = p[a] * octa->grid;
+    if (octa->grid > 0)
+        return;
     int level = abs(p[0]) + abs(p[1]) + abs(p[2]);
     int s = shell_of_layer(octa, level);
     bool inner = s >= 0 && (level > octa->level[s][0] || level == 0);

@@ -12,6 +12,7 @@ typedef struct tc_octa {
     int n_shell;     /* 1..4 */
     double r[4][2];  /* inner and outer radius of each shell, ascending; an inner radius of 0 makes a ball */
     int level[4][2]; /* their levels; set by tc_octa_resolve */
+    double grid;     /* above 0: vertices stay on the lattice of this spacing, unmoved, and r is grid * level */
 } tc_octa;
 
 /* Chooses the levels for about n_cells tets. */

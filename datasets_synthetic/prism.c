@@ -57,7 +57,7 @@ tc_status tc_prism_build(tc_synth_soup *out, const tc_prism *prism, size_t n_cel
 {
     strip s = {.prism = prism, .seed = seed};
     resolve(s.n, prism, n_cells);
-    tc_lattice lattice = {{s.n[0], s.n[1], s.n[2]}, prism->wrap, NULL, place, &s};
+    tc_lattice lattice = {{s.n[0], s.n[1], s.n[2]}, prism->wrap, NULL, place, &s, TC_SPLIT_KUHN};
     return tc_lattice_build(out, &lattice, err);
 }
 

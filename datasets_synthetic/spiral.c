@@ -41,4 +41,4 @@ static double chord(const double *origin, const double *direction, size_t n_cell
     return tc_prism_chord(&sheet, origin, direction, n_cells);
 }
 
-const tc_synth_generator tc_synth_spiral = {40000, build, field, chord};
+const tc_synth_generator tc_synth_spiral = {40000, build, field, chord, TC_SYNTH_SOUND, 0};

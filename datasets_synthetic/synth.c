@@ -2,31 +2,21 @@
 #include "synth.h"
 
 #include "core/memory.h"
+#include "soup.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* One row a generator; the two tables below are in this order. */
-#define GENERATORS                                                                                                     \
-    ROW(kuhn, "unit cube, Kuhn lattice with jittered vertices; convex", "linear: (x + 2 y + 3 z) / 6")                 \
-    ROW(ball, "ball of radius 1, octahedral lattice; convex", "r + 0.15 sin(6 z)")                                     \
-    ROW(heatsink, "base plate with 48 fins, many re-entries", "temperature: cosh decay along the fins, warm spot")     \
-    ROW(cylinder, "upright cylinder with a hole through it", "wave winding around the axis")                           \
-    ROW(bluntfin, "channel around a blunt fin, C-shaped grid", "density: bow shock, compression at the nose, wake")    \
-    ROW(comb, "spine with 40 teeth, 39 re-entries along it", "sin(3 x) cos(2 z) + y")                                  \
-    ROW(shells, "three nested shells around a cavity", "r + 0.3 x y")                                                  \
-    ROW(spiral, "rolled sheet of three turns", "r + 0.25 sin(4 z)")                                                    \
-    ROW(torusknot, "square tube along a trefoil knot", "sin(3 angle) + z")                                             \
-    ROW(tet, "one tet", "linear")                                                                                      \
-    ROW(two, "two tets that share a face", "linear")
-
-#define ROW(name, what, field) {#name, what, field},
-static const tc_synth_info info[] = {GENERATORS};
+#define ROW(id, name, what, field) {name, what, field},
+static const tc_synth_info info[] = {TC_SYNTH_ROWS(ROW)};
 #undef ROW
-#define ROW(name, what, field) &tc_synth_##name,
-static const tc_synth_generator *const generator[] = {GENERATORS};
+#define ROW(id, name, what, field) &tc_synth_##id,
+static const tc_synth_generator *const generator[] = {TC_SYNTH_ROWS(ROW)};
+#undef ROW
+#define ROW(id, name, what, field) +1
+enum { N_PLAIN = 0 TC_SYNTH_PLAIN_ROWS(ROW) };
 #undef ROW
 
 enum { N_GENERATOR = sizeof info / sizeof *info };
@@ -48,11 +38,25 @@ const tc_synth_generator *tc_synth_find(const char *name)
 static tc_status fail_unknown(const char *name, tc_error *err)
 {
     char list[512] = "";
-    for (size_t i = 0; i < N_GENERATOR; i++) {
+    for (size_t i = 0; i < N_PLAIN; i++) {
         size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", info[i].name);
+        snprintf(list + used, sizeof list - used, "%s, ", info[i].name);
     }
-    return tc_fail(err, TC_E_ARG, "there is no synthetic dataset '%s'; there are %s", name, list);
+    return tc_fail(err, TC_E_ARG,
+                   "there is no synthetic dataset '%s'; there are %sand %d hard cases, from %s to %s (tc_synth_list, "
+                   "tetcast synth --list)",
+                   name, list, N_GENERATOR - N_PLAIN, info[N_PLAIN].name, info[N_GENERATOR - 1].name);
+}
+
+/* Gives the soup the generator's field at its vertices, unless it has values of its own or there is no field. */
+static tc_status sample(tc_synth_soup *soup, const tc_synth_generator *g, tc_error *err)
+{
+    if (soup->scalar || !g->field)
+        return TC_OK;
+    tc_status status = tc_soup_values(soup, TC_POINT_DATA, err);
+    for (size_t i = 0; i < soup->n_vertex && !status; i++)
+        soup->scalar[i] = g->field(soup->vertex + 3 * i);
+    return status;
 }
 
 tc_status tc_synth_create(tc_mesh **out, const char *name, size_t n_cells, uint64_t seed, tc_error *err)
@@ -67,21 +71,17 @@ tc_status tc_synth_create(tc_mesh **out, const char *name, size_t n_cells, uint6
         return tc_fail(err, TC_E_ARG, "%zu cells are too many for 32-bit ids; ask for at most 2000000000", n_cells);
 
     tc_synth_soup soup = {0};
-    double *scalar = NULL;
     tc_status status = g->build(&soup, n_cells ? n_cells : g->default_cells, seed, err);
     if (status)
         goto done;
-    scalar = tc_alloc(soup.n_vertex, sizeof *scalar);
-    if (!scalar) {
-        status = tc_fail_memory(err, "the synthetic field", soup.n_vertex, sizeof *scalar);
+    status = sample(&soup, g, err);
+    if (status)
         goto done;
-    }
-    for (size_t i = 0; i < soup.n_vertex; i++)
-        scalar[i] = g->field(soup.vertex + 3 * i);
-    tc_mesh_arrays arrays = {soup.n_vertex, soup.vertex, soup.n_tet, soup.tet, scalar, TC_POINT_DATA, "field"};
+    tc_mesh_arrays arrays = {soup.n_vertex, soup.vertex, soup.n_tet, soup.tet, soup.scalar, soup.association, "field"};
+    if (!soup.scalar)
+        arrays.field_name = NULL;
     status = tc_mesh_create(out, &arrays, err);
 done:
-    free(scalar);
     tc_synth_soup_finish(&soup);
     return status;
 }
@@ -90,6 +90,7 @@ void tc_synth_soup_finish(tc_synth_soup *soup)
 {
     free(soup->vertex);
     free(soup->tet);
+    free(soup->scalar);
     memset(soup, 0, sizeof *soup);
 }
 

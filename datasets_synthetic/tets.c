@@ -36,15 +36,10 @@ static double field(const double *p)
 
 static double chord(const double *origin, const double *direction, int n_tet)
 {
-    static const int outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
     double length = 0;
-    for (int t = 0; t < n_tet; t++) {
-        tc_span span = tc_span_whole();
-        for (int f = 0; f < 4; f++)
-            tc_span_clip(&span, origin, direction, vertex[tet[t][outward[f][0]]], vertex[tet[t][outward[f][1]]],
-                         vertex[tet[t][outward[f][2]]]);
-        length += tc_span_length(span);
-    }
+    for (int t = 0; t < n_tet; t++)
+        length +=
+            tc_chord_tet(vertex[tet[t][0]], vertex[tet[t][1]], vertex[tet[t][2]], vertex[tet[t][3]], origin, direction);
     return length;
 }
 
@@ -60,5 +55,7 @@ static double chord_two(const double *origin, const double *direction, size_t n_
     return chord(origin, direction, 2);
 }
 
-const tc_synth_generator tc_synth_tet = {1, build_tet, field, chord_tet};
-const tc_synth_generator tc_synth_two = {2, build_two, field, chord_two};
+enum { promises = TC_SYNTH_POSITIVE | TC_SYNTH_SHAPELY | TC_SYNTH_CONFORMING | TC_SYNTH_CONVEX };
+
+const tc_synth_generator tc_synth_tet = {1, build_tet, field, chord_tet, promises, 0};
+const tc_synth_generator tc_synth_two = {2, build_two, field, chord_two, promises, 0};

@@ -53,7 +53,7 @@ static tc_status build(tc_synth_soup *out, size_t n_cells, uint64_t seed, tc_err
 {
     double h = tc_synth_fit(count_tets, NULL, n_cells, 2 * tube[0]);
     knot k = {{(size_t)divisions(0, h), (size_t)divisions(1, h), (size_t)divisions(2, h)}, seed};
-    tc_lattice lattice = {{k.n[0], k.n[1], k.n[2]}, true, NULL, place, &k};
+    tc_lattice lattice = {{k.n[0], k.n[1], k.n[2]}, true, NULL, place, &k, TC_SPLIT_KUHN};
     return tc_lattice_build(out, &lattice, err);
 }
 
@@ -62,4 +62,4 @@ static double field(const double *p)
     return sin(3 * atan2(p[1], p[0])) + p[2];
 }
 
-const tc_synth_generator tc_synth_torusknot = {40000, build, field, NULL};
+const tc_synth_generator tc_synth_torusknot = {40000, build, field, NULL, TC_SYNTH_SOUND, 0};

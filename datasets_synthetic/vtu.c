@@ -49,9 +49,17 @@ static void put_array(vtu *v, const char *type, const char *name, int components
     v->offset += sizeof bytes + bytes;
 }
 
+/* Is there a field? A mesh made without one has zeros and no name. */
+static bool has_field(const tc_mesh *mesh)
+{
+    const tc_mesh_report *r = &mesh->report;
+    bool zero = r->scalar_range[0] == 0 && r->scalar_range[1] == 0 && r->nonfinite_scalars == 0;
+    return mesh->scalar && (mesh->field_name || !zero);
+}
+
 static void put_field(vtu *v, const tc_mesh *mesh, const char *tag, tc_association association, size_t n)
 {
-    bool here = mesh->scalar && mesh->association == association;
+    bool here = has_field(mesh) && mesh->association == association;
     const char *name = mesh->field_name ? mesh->field_name : "field";
     if (!here) {
         fprintf(v->file, "<%s/>\n", tag);
@@ -117,7 +125,7 @@ static void put_mesh(FILE *file, const tc_mesh *mesh)
     put_array(&v, "UInt8", "types", 1, n_tet);
     fputs("</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", file);
 
-    if (mesh->scalar)
+    if (has_field(mesh))
         put_block(file, mesh->scalar, (mesh->association == TC_CELL_DATA ? n_tet : n_vertex) * sizeof(double));
     put_block(file, mesh->vertex, n_vertex * 3 * sizeof(double));
     put_block(file, mesh->tet, n_tet * 4 * sizeof(int32_t));

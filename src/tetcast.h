@@ -196,7 +196,8 @@ typedef struct tc_synth_info {
 
 /* The generators; *n gets their count. Static memory. */
 TC_API const tc_synth_info *tc_synth_list(size_t *n);
-/* Builds a synthetic dataset of about n_cells tets (0: its default). Errors: TC_E_ARG (unknown name: lists them). */
+/* Builds a synthetic dataset of about n_cells tets (0: its default). Errors: TC_E_ARG (unknown name: lists some),
+ * TC_E_MESH (the dataset whose index is out of range), TC_E_MEMORY. */
 TC_API tc_status tc_synth_create(tc_mesh **out, const char *name, size_t n_cells, uint64_t seed, tc_error *err);
 /* Writes the real tets and the field of a mesh as a VTU file (raw appended data); whole or not at all. */
 TC_API tc_status tc_mesh_write_vtu(const tc_mesh *mesh, const char *path, tc_error *err);

@@ -28,7 +28,7 @@ static int tc_synth_list_print(bool as_json, tc_talk *talk)
     const tc_synth_info *list = tc_synth_list(&n);
     if (!as_json) {
         for (size_t i = 0; i < n; i++)
-            printf("%-12s %s; field: %s\n", list[i].name, list[i].what, list[i].field);
+            printf("%-21s %s; field: %s\n", list[i].name, list[i].what, list[i].field);
         return TC_EXIT_DONE;
     }
     json_t *json = json_array();
