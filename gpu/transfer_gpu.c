@@ -189,7 +189,9 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         wanted.length_max = request->length_max > 0 ? request->length_max : 1;
     } else {
         wanted.size[0] = choose_nodes(request->transfer, wanted.span);
-        wanted.pieces = wanted.size[0] > INTERVALS_MOST || needs_pieces(request);
+        /* Data of one value may lie on a step, where nodes hold the mean of both sides. */
+        wanted.pieces = wanted.size[0] > INTERVALS_MOST || !(request->scalar[1] > request->scalar[0]) ||
+                        needs_pieces(request);
     }
     bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
                 t->pieces == wanted.pieces && (t->pieces || memcmp(t->size, wanted.size, sizeof t->size) == 0) &&
