@@ -162,7 +162,9 @@ static GLuint get(tc_program_cache *cache, const char *vertex, const char *fragm
     char defines[512], alias[128];
     tc_job_defines(defines, sizeof defines, job);
     snprintf(alias, sizeof alias, "integrator.glsl=integrate_%s.glsl%s",
-             job->integrator == TC_INTEGRATOR_TABLE ? "table" : "integral",
+             job->integrator == TC_INTEGRATOR_TABLE ? "table"
+             : job->pieces                          ? "pieces"
+                                                    : "integral",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
     const tc_program_source source = {vertex, fragment, defines, alias};
     GLuint program;
@@ -265,7 +267,7 @@ static void the_paper_s_stepper_is_where_it_is_not_asked_for(void **state)
         expect_uniform(gl, signs, "mesh_cells", true, f);
         expect_uniform(gl, first, "mesh_cells", false, f); /* so that a scene with planes needs no records */
         expect_uniform(gl, planes, "mesh_cells", false, f);
-        job.nonfinite = job.audit = job.count = job.software = true;
+        job.nonfinite = job.has_nan_color = job.audit = job.count = job.software = true;
         get(cache, "screen.vert", "march.frag", &job);
     }
     get(cache, "screen.vert", "lost.frag", &(tc_job){.frame = &(tc_frame){.ahead = true}});
@@ -299,7 +301,7 @@ static void some_shader_does_not_compile(void **state)
         tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
         for (int way = 0; way < 4; way++) {
             tc_job job = job_of(f, &frame);
-            job.thick = way & 1 ? 0.25 : 0;
+            job.pieces = way & 1;
             job.nonfinite = way & 1;
             job.software = way & 2;
             get(cache, "screen.vert", "march.frag", &job);
