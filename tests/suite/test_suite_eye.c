@@ -182,7 +182,7 @@ static void clipped_chords_are_not_between_the_planes(void **state)
     for (int way = 0; way < 2; way++) {
         tc_mesh *mesh = cube(TC_POINT_DATA, way ? TC_REENTRY_PEEL : TC_REENTRY_AUTO);
         for (int e = 0; e < 4; e++)
-            for (size_t r = 0; r < sizeof ranges / sizeof *ranges; r++) {
+            for (size_t r = (size_t)way; r < sizeof ranges / sizeof *ranges; r += 1 + (size_t)way) {
                 const double to[3] = {e == 1 ? 4 : 2.05, 1.9, 2.1};
                 tc_camera camera = look(from[e], to, 40);
                 camera.parallel = (r + (size_t)e) % 2;
@@ -306,7 +306,7 @@ static void extreme_angles_distances_or_sizes_are_wrong(void **state)
     const double middle[3] = {2, 2, 1.8};
     for (int e = 0; e < 3; e++)
         for (int a = 0; a < 3; a++)
-            for (int s = 0; s < 4; s++) {
+            for (int s = 0; s < (a == e ? 4 : 2); s++) { /* the long ones once an eye */
                 char what[80];
                 tc_camera camera = look(from[e], middle, angle[a] / (s == 2 ? (angle[a] > 1 ? 40 : 4096) : 1));
                 const tc_render_options options = suite_options(size[s][0], size[s][1]);

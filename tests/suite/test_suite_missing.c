@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIZE = 64, N = 8, S = N + 1, N_VERTEX = S * S * S, N_TET = 6 * N * N * N };
+enum { SIZE = 48, N = 8, S = N + 1, N_VERTEX = S * S * S, N_TET = 6 * N * N * N };
 
 /* A cube of N^3 unit cubes, each of six tets (Kuhn 1960), scalar 1 + x + y / 2 + z / 4 with both associations. With a
  * notch, the cubes 3 <= x < 5, y >= 4 are missing: rays cross a gap. */
@@ -166,7 +166,7 @@ static void a_region_of_missing_values_looks_different(void **state)
         assert_int_equal(report.nonfinite_cells, cells);
         assert_true(cells > 100 && cells < g->n_tet / 2);
         for (int e = 0; e < 3; e++)
-            for (int k = 0; k < 4; k++) {
+            for (int k = 0; k < 4; k += way & 2 ? 3 : 1) {
                 char what[80];
                 snprintf(what, sizeof what, "missing %s%s, eye %d, %s, %s", way & 1 ? "cells" : "points",
                          way & 2 ? ", peeled" : "", e, k & 1 ? "violet" : "transparent", k & 2 ? "table" : "integral");
