@@ -8,11 +8,12 @@
  * tetcast-convexify.
  *   boundary: of the real tets, borrowed
  *   limit_s:  time limit of the helper; 0: 120 s
- * The result is accepted only if TetGen left the boundary's points as they were, every boundary face has an imaginary
- * neighbour or lies on the outside, all faces link, the outside is one closed convex surface, and real and imaginary
- * volumes add up to the hull's that TetGen made. Otherwise the mesh stays as it is.
- * Errors: TC_E_WORKER (the helper is missing, died or took too long), TC_E_MESH (TetGen refused the boundary, or its
- * result was not accepted), TC_E_MEMORY. */
+ * The result is accepted only if TetGen left the boundary's points as they were, the points it added lie within the
+ * mesh's bounds and belong to its cells, none of these has negative volume, every face but the outside's joins two
+ * cells on opposite sides, the outside is one closed convex surface (up to 1e-7 of the diagonal), and real and
+ * imaginary volumes add up to the hull's that TetGen made (to 1e-9). Otherwise the mesh stays as it is. Errors:
+ * TC_E_WORKER (the helper is missing, died or took too long), TC_E_MESH (TetGen refused the boundary, or its result was
+ * not accepted), TC_E_MEMORY. */
 tc_status tc_mesh_convexify(tc_mesh *mesh, const tc_boundary *boundary, double limit_s, int threads, const tc_log *log,
                             tc_error *err);
 

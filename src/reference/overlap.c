@@ -158,7 +158,7 @@ bool tc_hits_order(tc_hit *hit, size_t n, const tc_reference *reference, double 
         }
     memcpy(hit, ordered, m * sizeof *hit);
     for (size_t i = m; i < n; i++)
-        hit[i].t1 = hit[i].t0; /* in a ring: signs exclude it */
+        hit[i].t1 = hit[i].t0; /* in a ring: depth grows along a run, so a ring has no length but by rounding */
     good = true;
 done:
     free(p);
