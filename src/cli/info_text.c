@@ -96,6 +96,12 @@ static void tc_source_print(const tc_source *source)
     }
 }
 
+/* Is any value finite, so that there is a range? */
+static bool tc_has_range(const tc_mesh_report *report)
+{
+    return report->nonfinite_scalars < (report->association == TC_CELL_DATA ? report->n_tet : report->n_vertex);
+}
+
 static void tc_mesh_print(const tc_info *info)
 {
     const tc_mesh_report *report = &info->report;
@@ -107,7 +113,7 @@ static void tc_mesh_print(const tc_info *info)
         printf("field       %s (%s)", info->source->field, tc_association_name(report->association));
     else
         printf("field       %s", info->source ? "none" : "field");
-    if (report->scalar_range[0] <= report->scalar_range[1])
+    if (tc_has_range(report))
         printf(" %g … %g\n", report->scalar_range[0], report->scalar_range[1]);
     else
         printf(", no finite value\n");
@@ -208,7 +214,9 @@ static json_t *tc_report_json(const tc_info *info)
     tc_json_count(json, "tets", report->n_tet);
     tc_json_count(json, "source_cells", report->source_cells);
     json_object_set_new(json, "bounds", tc_json_reals(report->bounds, 6));
-    json_object_set_new(json, "range", tc_range_json(report->scalar_range[0], report->scalar_range[1]));
+    json_object_set_new(json, "range",
+                        tc_has_range(report) ? tc_range_json(report->scalar_range[0], report->scalar_range[1])
+                                             : json_null());
     tc_json_text(json, "field", info->source ? info->source->field : "field");
     tc_json_text(json, "association", tc_association_name(report->association));
     tc_json_real(json, "longest_edge", report->longest_edge);

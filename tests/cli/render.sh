@@ -49,6 +49,24 @@ done
 run 0 render $ball -o d.exr --azimuth 360 --zoom 1 --background transparent --view-up 0,1,0
 run 0 compare reference.exr d.exr
 
+# A clipping range that holds all changes nothing; one that does not, does; one beside the mesh is said.
+run 0 render $ball -o e.exr --clipping-range 0.1,100
+run 0 compare reference.exr e.exr
+for options in "--clipping-range 0,7" "--clipping-range 6,100" "--parallel --camera-position 0,0,0.2"; do
+    run 0 render $ball -o c.exr $options --verify 1000
+    run 2 compare reference.exr c.exr
+done
+grep -a -q clipping_range e.exr || fail "e.exr does not carry its clipping range"
+run 0 render $ball -o f.png --clipping-range 20,30
+says "outside the clipping range 20 to 30"
+run 0 render $ball -o f.png --parallel --camera-position 0,0,-2 --focal-point 0,0,-3
+says "lies behind the camera"
+for wrong in 5,5 7,2 -1,4 3 1,2,3 0,inf; do
+    run 2 render $ball -o no.png --clipping-range "$wrong"
+    says "--clipping-range takes NEAR,FAR"
+    absent no.png
+done
+
 # A file as input, by the reader.
 run 0 synth ball --cells 3000 -o ball.vtu
 there ball.vtu
