@@ -75,6 +75,12 @@
     ROW(notch_5e_2, "notch-5e-2", "hard: box with a cut whose sides are at 0.05 degrees", TC_SYNTH_LINEAR)             \
     ROW(notch_1e_3, "notch-1e-3", "hard: the same, at 1e-3 degrees", TC_SYNTH_LINEAR)                                  \
     ROW(notch_1e_6, "notch-1e-6", "hard: the same, at 1e-6 degrees", TC_SYNTH_LINEAR)                                  \
+    ROW(hinge_5e_2, "hinge-5e-2", "hard: blocks hinged at an edge, faces at 0.05 degrees", TC_SYNTH_LINEAR)            \
+    ROW(hinge_apart, "hinge-apart", "hard: the same at 1e-3 degrees, the edge there twice, 1e-16 apart",               \
+        TC_SYNTH_LINEAR)                                                                                               \
+    ROW(gap_1e_4, "gap-1e-4", "hard: two boxes 1e-4 apart", TC_SYNTH_LINEAR)                                           \
+    ROW(gap_1e_7, "gap-1e-7", "hard: two boxes 1e-7 apart", TC_SYNTH_LINEAR)                                           \
+    ROW(gap_1e_12, "gap-1e-12", "hard: two boxes 1e-12 apart", TC_SYNTH_LINEAR)                                        \
     ROW(blades, "blades", "hard: blades around an edge, 0.05 degrees between them", TC_SYNTH_LINEAR)
 
 /* Hard cases: meshes with something wrong. */
@@ -99,6 +105,8 @@
     ROW(bricks, "bricks", "broken: boxes that lie on each other like bricks", TC_SYNTH_LINEAR)                         \
     ROW(overlap_grids, "overlap-grids", "broken: two grids through each other", TC_SYNTH_LINEAR)                       \
     ROW(overlap_coincident, "overlap-coincident", "broken: two grids of the same cube", TC_SYNTH_LINEAR)               \
+    ROW(overlap_1e_7, "overlap-1e-7", "broken: two boxes that overlap by 1e-7", TC_SYNTH_LINEAR)                       \
+    ROW(overlap_1e_12, "overlap-1e-12", "broken: two boxes that overlap by 1e-12", TC_SYNTH_LINEAR)                    \
     ROW(nan_region, "nan-region", "broken: NaN in a ball", "linear and NaN")                                           \
     ROW(nan_scattered, "nan-scattered", "broken: NaN at one point in forty", "linear and NaN")                         \
     ROW(nan_all, "nan-all", "broken: NaN at all points", "NaN")                                                        \

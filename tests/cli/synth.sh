@@ -6,7 +6,7 @@ stderr_empty
 for name in kuhn ball heatsink cylinder bluntfin sliver-1e5 seam; do
     prints "$name "
 done
-[ "$(wc -l <out)" -ge 70 ] || fail "fewer than seventy datasets"
+[ "$(wc -l <out)" -ge 100 ] || fail "fewer than seventy datasets"
 sed 's/ .*//' out >names
 sed -n 's/ *broken: .*//p' out >broken
 [ "$(head -1 names)" = kuhn ] || fail "the list does not begin with kuhn"

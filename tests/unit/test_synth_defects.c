@@ -143,7 +143,17 @@ static void middle(double *out, const tc_mesh *m, size_t tet)
         out[k] = (corner(m, tet, 0)[k] + corner(m, tet, 1)[k] + corner(m, tet, 2)[k] + corner(m, tet, 3)[k]) / 4;
 }
 
-/* Tets whose middle lies in another tet. */
+/* Exactly. */
+static bool strictly_inside(const tc_mesh *m, size_t tet, const double *p)
+{
+    for (int f = 0; f < 4; f++)
+        if (tc_orient3d(corner(m, tet, outward[f][0]), corner(m, tet, outward[f][1]), corner(m, tet, outward[f][2]),
+                        p) >= 0)
+            return false;
+    return true;
+}
+
+/* Tets whose middle, and points that, lie in another tet. */
 static size_t count_overlaps(const tc_mesh *m)
 {
     size_t n = 0;
@@ -153,6 +163,8 @@ static size_t count_overlaps(const tc_mesh *m)
         middle(p, m, t);
         for (size_t u = 0; u < m->n_tet; u++)
             n += u != t && inside(m, u, p, depth);
+        for (size_t v = 0; v < m->n_vertex; v++)
+            n += strictly_inside(m, t, m->vertex + 3 * v);
     }
     return n;
 }
