@@ -17,7 +17,11 @@
 #include <time.h>
 #include <unistd.h>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifndef __has_feature
+#define __has_feature(name) 0 /* clang's way to ask; gcc defines macros */
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || __has_feature(address_sanitizer) ||                \
+    __has_feature(thread_sanitizer)
 #define SANITIZED 1 /* sanitizers reserve terabytes of addresses: no RLIMIT_AS */
 #else
 #define SANITIZED 0

@@ -11,7 +11,8 @@
 #define TC_PRINTF(f, a)
 #endif
 
-/* Fills *err (NULL allowed) with a printf sentence and gives code back: `return tc_fail(err, TC_E_ARG, "…", …);` */
+/* Fills *err (NULL allowed) with a printf sentence and gives code back: `return tc_fail(err, TC_E_ARG, "…", …);`
+ * Here and below, control characters (of names and words from files) become '?' or blanks: it stays one line. */
 tc_status tc_fail(tc_error *err, tc_status code, const char *format, ...) TC_PRINTF(3, 4);
 /* Puts a prefix before the sentence that is there. Gives err's code back (code when err is NULL). */
 tc_status tc_fail_prefix(tc_error *err, tc_status code, const char *format, ...) TC_PRINTF(3, 4);

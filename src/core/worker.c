@@ -77,6 +77,21 @@ static char **environment_with(size_t memory_bytes, char **slot)
     return copy;
 }
 
+/* 0: not known. The group is that of Linux's control groups, version 2. */
+static size_t machine_memory(void)
+{
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    size_t bytes = pages > 0 && page > 0 ? (size_t)pages * (size_t)page : 0;
+    FILE *file = fopen("/sys/fs/cgroup/memory.max", "re");
+    unsigned long long most;
+    if (file) {
+        if (fscanf(file, "%llu", &most) == 1 && most > 0 && (bytes == 0 || most < bytes))
+            bytes = (size_t)most;
+        fclose(file);
+    }
+    return bytes - bytes / 8;
+}
+
 /* What the child does with its descriptors and signals: 0 is /dev/null, 1 and 2 are the talk pipe, 3 is the socket. */
 static int prepare_spawn(posix_spawn_file_actions_t *files, posix_spawnattr_t *attributes, int socket, int talk)
 {
@@ -103,7 +118,8 @@ static int spawn(tc_worker *w, const char *path, int socket, int talk)
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
     char *slot = NULL, *argv[] = {w->name, NULL};
-    char **environment = environment_with(w->limits.memory_bytes, &slot);
+    size_t memory = w->limits.memory_bytes == TC_WORKER_MACHINE ? machine_memory() : w->limits.memory_bytes;
+    char **environment = environment_with(memory, &slot);
     if (!environment)
         return ENOMEM;
     int code = posix_spawn_file_actions_init(&files);
@@ -313,7 +329,7 @@ static tc_status fail_ended(tc_worker *w, const char *detail, tc_error *err)
                  WTERMSIG(how) == SIGKILL ? "; perhaps the system's memory ran out" : "");
     else
         snprintf(cause, sizeof cause, "ended with exit code %d", WEXITSTATUS(how));
-    if (w->limits.memory_bytes > 0)
+    if (w->limits.memory_bytes > 0 && w->limits.memory_bytes != TC_WORKER_MACHINE)
         snprintf(limit, sizeof limit, " under its memory limit of %.0f MiB", (double)w->limits.memory_bytes / 1048576);
     close_all(w);
     return tc_fail(err, TC_E_WORKER, "%s %s%s before it gave a result%s%s%s%s%s", w->name, cause, limit,

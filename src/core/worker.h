@@ -27,6 +27,10 @@ typedef struct tc_array {
     const void *data;
 } tc_array;
 
+/* As memory_bytes: seven eighths of the memory of the machine (or of the control group that the program is in), so that a
+ * damaged count in a file does not push everything else out. */
+#define TC_WORKER_MACHINE SIZE_MAX
+
 typedef struct tc_worker_limits {
     double total_s;       /* a request may take this long; 0: no limit */
     double idle_s;        /* … without a message; 0: no limit */
