@@ -238,7 +238,8 @@ tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_options *o
     tc_reply reply = {0};
     tc_mesh *mesh = NULL;
     const double start = now_ms();
-    const tc_worker_limits limits = {.idle_s = options->idle_limit_s > 0 ? options->idle_limit_s : 60};
+    const tc_worker_limits limits = {.idle_s = options->idle_limit_s > 0 ? options->idle_limit_s : 60,
+                                     .memory_bytes = TC_WORKER_MACHINE};
     tc_status status = make_request(&request, path, options, err);
     if (!status)
         status = tc_worker_start(&worker, "tetcast-read", &limits, err);
