@@ -101,6 +101,7 @@ int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *option
         .time = options->time,
         .step = options->step,
         .refine = options->refine,
+        .idle_limit_s = options->idle_limit,
     };
     double start = tc_talk_clock_s();
     tc_status status = tc_mesh_read(out, input, &read, &talk->log, &err);

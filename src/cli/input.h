@@ -9,6 +9,7 @@ typedef struct tc_input_options {
     bool cell_data, point_data, has_time, has_step;
     double time;
     int step, refine;
+    double idle_limit; /* seconds; 0: the default */
     int reentry; /* tc_reentry */
     int threads;
     uint64_t seed;
@@ -28,7 +29,9 @@ typedef struct tc_input_options {
     {"--step", 0, "N", "the step by number, from 0; negative counts from the end", TC_OPTION_INT,                      \
      .at = TC_INPUT_AT(type, member, step), .has = TC_INPUT_AT(type, member, has_step) + 1},                           \
     {"--refine", 0, "N", "split curved (quadratic) cells N times before they become linear; default 0", TC_OPTION_INT,         \
-     .at = TC_INPUT_AT(type, member, refine), .low = 0, .high = 6}
+     .at = TC_INPUT_AT(type, member, refine), .low = 0, .high = 6},                                                    \
+    {"--idle-limit", 0, "S", "stop the reader after S seconds without progress; default 60", TC_OPTION_REAL,           \
+     .at = TC_INPUT_AT(type, member, idle_limit), .low = 0, .high = 1e9, .open = true}
 #define TC_INPUT_GAP_ROW(type, member)                                                                                 \
     {"--reentry", 0, "auto|convexify|peel", "how rays cross gaps: fill them with cells that only lead on, or peel",    \
      TC_OPTION_CHOICE, .at = TC_INPUT_AT(type, member, reentry), .choice = tc_reentry_choice}
