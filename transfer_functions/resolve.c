@@ -4,6 +4,7 @@
 
 #include "core/memory.h"
 #include "transfer_functions/color_space.h"
+#include "transfer_functions/place.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -50,7 +51,7 @@ static double place_of(const tc_resolve_input *in, double s)
 {
     if (in->log)
         return (log(s) - log(in->range[0])) / (log(in->range[1]) - log(in->range[0]));
-    return (0.5 * s - 0.5 * in->range[0]) / (0.5 * in->range[1] - 0.5 * in->range[0]);
+    return tc_place(s, in->range[0], in->range[1]);
 }
 
 /* Fraction of the way of s between a and b, straight or by logarithms. */
@@ -59,7 +60,7 @@ static double fraction(const job *j, double s, double a, double b, bool logarith
     if (!(b > a))
         return 0;
     const double t =
-        logarithmic && j->in->log ? (log(s) - log(a)) / (log(b) - log(a)) : (0.5 * s - 0.5 * a) / (0.5 * b - 0.5 * a);
+        logarithmic && j->in->log ? (log(s) - log(a)) / (log(b) - log(a)) : tc_place(s, a, b);
     return fmax(0, fmin(1, t));
 }
 
@@ -277,7 +278,7 @@ static void place_points(double *s, const tc_resolve_input *in, const double *x,
     const double first = n ? x[0] : 0, last = n ? x[stride * (n - 1)] : 0;
     for (size_t i = 0; i < n; i++) {
         const double at = x[stride * i];
-        s[i] = scalar_of(in, last > first ? (0.5 * at - 0.5 * first) / (0.5 * last - 0.5 * first) : 0);
+        s[i] = scalar_of(in, tc_place(at, first, last));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "transfer_functions/place.h"
 
 #include <float.h>
 #include <math.h>
@@ -16,7 +17,7 @@
 static void piece_value(double out[4], const tc_transfer *tf, size_t piece, double s)
 {
     const tc_knot *a = &tf->knot[piece > 0 ? piece - 1 : 0], *b = &tf->knot[piece < tf->n ? piece : tf->n - 1];
-    double t = b->s > a->s ? (0.5 * s - 0.5 * a->s) / (0.5 * b->s - 0.5 * a->s) : 0;
+    double t = tc_place(s, a->s, b->s);
     t = t < 0 ? 0 : t > 1 ? 1 : t;
     out[0] = a->r + t * (b->r - a->r);
     out[1] = a->g + t * (b->g - a->g);

@@ -3,6 +3,7 @@
 #include "transfer_functions/transfer.h"
 
 #include "core/memory.h"
+#include "transfer_functions/place.h"
 #include "transfer_functions/preset.h"
 
 #include <math.h>
@@ -137,8 +138,7 @@ void tc_transfer_evaluate(double out[4], const tc_transfer *tf, double s)
             hi = middle;
     }
     const tc_knot *a = &tf->knot[lo > 0 ? lo - 1 : 0], *b = &tf->knot[lo < tf->n ? lo : tf->n - 1];
-    /* The halves keep the difference of two huge scalars finite. */
-    const double t = b->s > a->s ? (0.5 * s - 0.5 * a->s) / (0.5 * b->s - 0.5 * a->s) : 0;
+    const double t = tc_place(s, a->s, b->s);
     out[0] = a->r + t * (b->r - a->r);
     out[1] = a->g + t * (b->g - a->g);
     out[2] = a->b + t * (b->b - a->b);
