@@ -5,6 +5,7 @@
 #   make test       build everything and run all tests
 #   make sanitize   the same with address and undefined-behaviour sanitizers, in build/sanitize
 #   make valgrind   what needs no GL under Valgrind's memcheck, in build/valgrind
+#   make fuzz       FUZZ_SECONDS (60) of random inputs for each part that reads what others wrote; FUZZ_TARGETS=… for some
 #   make bench      measure, side by side with VTK
 #   make docs       the figures in docs/images, and the manual pages as HTML in build/docs
 #   make install    to PREFIX (/usr/local), below DESTDIR
@@ -19,6 +20,8 @@ PREFIX     ?= /usr/local
 PACKAGES   ?= yes
 CMAKE_ARGS ?=
 BENCH_ARGS ?=
+FUZZ_SECONDS ?= 60
+FUZZ_TARGETS ?= preset options mesh sniff wire reply split
 
 BUILD := build
 
@@ -26,6 +29,7 @@ BASE_PACKAGES := gcc g++ libc6-dev cmake ninja-build pkg-config libvtk9-dev libt
 	libgl-dev libegl1 libgl1-mesa-dri libopenimageio-dev libglm-dev libjansson-dev libcmocka-dev
 BENCH_PACKAGES := python3 python3-vtk9 python3-numpy xvfb xauth
 VALGRIND_PACKAGES := valgrind
+FUZZ_PACKAGES := clang-14 libclang-rt-14-dev
 DOCS_PACKAGES := groff gnuplot-nox
 
 CONFIGURE = cmake -S . -B $(BUILD) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-G Ninja) \
@@ -36,7 +40,7 @@ else
 packages = :
 endif
 
-.PHONY: all configure demo test sanitize valgrind bench docs install clean
+.PHONY: all configure demo test sanitize valgrind fuzz bench docs install clean
 .DEFAULT_GOAL := all
 
 all: configure
@@ -57,6 +61,7 @@ demo: all
 	@echo "The picture is $(BUILD)/demo.png"
 
 test: configure
+	@$(call packages,$(FUZZ_PACKAGES)) || echo "without clang the fuzz tests are skipped" >&2
 	cmake --build $(BUILD) -j $(JOBS) --target all --target all_tests
 	cd $(BUILD) && ctest --output-on-failure -j 2
 
@@ -74,6 +79,14 @@ valgrind:
 		-DCMAKE_BUILD_TYPE=RelWithDebInfo -DTC_WERROR=$(WERROR) $(CMAKE_ARGS)
 	cmake --build $(BUILD)/valgrind -j $(JOBS) --target all --target all_tests
 	sh tests/valgrind.sh $(BUILD)/valgrind
+
+# In build/fuzz, by clang. An input that breaks something stays in build/fuzz/crashes, what is new in build/fuzz/found.
+fuzz:
+	@$(call packages,$(BASE_PACKAGES) $(FUZZ_PACKAGES))
+	WERROR=$(WERROR) sh tests/fuzz/build.sh $(BUILD)/fuzz
+	@status=0; for target in $(FUZZ_TARGETS); do \
+		sh tests/fuzz/run.sh $(BUILD)/fuzz $$target $(FUZZ_SECONDS) || status=1; \
+	done; exit $$status
 
 bench: all
 	@$(call packages,$(BENCH_PACKAGES))

@@ -1,0 +1,126 @@
+/* fuzz_options.c: command lines from any bytes: words end with a line feed.
+ * The first byte chooses the command. Promises: it is accepted or refused as a wrong command line; what is accepted
+ * lies within the bounds that the table states. */
+#define _GNU_SOURCE
+#include "fuzz.h"
+
+#include "cli/commands.h"
+#include "cli/render_options.h"
+
+#include <math.h>
+
+/* Behind the options: not reached by a command line that is only read. */
+int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, char **argv)
+{
+    (void)talk, (void)command, (void)argc, (void)argv;
+    return TC_EXIT_DONE;
+}
+
+void tc_render_defaults(tc_render_options *options)
+{
+    *options = (tc_render_options){.width = 512, .height = 512, .opacity_stop = 0.999};
+}
+
+const tc_synth_info *tc_synth_list(size_t *n)
+{
+    static const tc_synth_info list[] = {{"kuhn", "cubes of six", "x"}, {"ball", "a ball", "r"}};
+    *n = 2;
+    return list;
+}
+
+tc_status tc_synth_create(tc_mesh **out, const char *name, size_t n_cells, uint64_t seed, tc_error *err)
+{
+    (void)name, (void)n_cells, (void)seed, (void)err;
+    *out = NULL;
+    return TC_E_ARG;
+}
+
+double tc_default_unit_distance(const tc_mesh *mesh)
+{
+    (void)mesh;
+    return 1;
+}
+
+tc_status tc_mesh_write_vtu(const tc_mesh *mesh, const char *path, tc_error *err)
+{
+    (void)mesh, (void)path, (void)err;
+    return TC_E_ARG;
+}
+
+static void check_value(const tc_option *option, const char *values)
+{
+    const void *field = values + option->at;
+    if (option->has && !*(const bool *)(values + option->has - 1))
+        return;
+    if (option->kind == TC_OPTION_REAL && option->has)
+        TC_FUZZ_CHECK(isfinite(*(const double *)field) &&
+                      (option->low == option->high ||
+                       (*(const double *)field >= option->low && *(const double *)field <= option->high)));
+    if (option->kind == TC_OPTION_REALS && option->has)
+        for (int i = 0; i < option->n; i++)
+            TC_FUZZ_CHECK(isfinite(((const double *)field)[i]));
+    if (option->kind == TC_OPTION_CHOICE) {
+        bool known = *(const int *)field == 0;
+        for (const tc_choice *c = option->choice; c->name; c++)
+            known = known || c->value == *(const int *)field;
+        TC_FUZZ_CHECK(known);
+    }
+}
+
+static void check_render(const tc_render_command *r)
+{
+    TC_FUZZ_CHECK(r->input && *r->input && r->output && *r->output);
+    TC_FUZZ_CHECK(r->size.width >= 1 && r->size.height >= 1 && (long long)r->size.width * r->size.height <= 1 << 28);
+    TC_FUZZ_CHECK(r->view_angle > 0 && r->view_angle < 180 && r->zoom > 0 && isfinite(r->zoom));
+    TC_FUZZ_CHECK(r->opacity_stop > 0 && r->opacity_stop <= 1 && r->repeat >= 1);
+    TC_FUZZ_CHECK(!r->has_range || r->range[0] < r->range[1]);
+    TC_FUZZ_CHECK(r->gl && r->driver && r->unit_distance >= 0);
+    for (int i = 0; r->background.there && i < 4; i++)
+        TC_FUZZ_CHECK(r->background.rgba[i] >= 0 && r->background.rgba[i] <= 1);
+}
+
+int LLVMFuzzerInitialize(int *argc, char ***argv)
+{
+    (void)argc, (void)argv;
+    FILE *nowhere = fopen("/dev/null", "w");
+    if (nowhere)
+        stdout = stderr = nowhere;
+    return 0;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const tc_command *const command[] = {&tc_command_render, &tc_command_info, &tc_command_compare,
+                                                &tc_command_synth};
+    enum { WORDS = 24 };
+    static union {
+        tc_render_command render;
+        double align;
+        char bytes[8192];
+    } values;
+    tc_fuzz_input in = {data, size};
+    const tc_command *c = command[tc_fuzz_u8(&in) % 4];
+    char *word[WORDS + 1] = {NULL};
+    const char *argument[8];
+    int n = 0, n_argument = 0, code;
+    tc_talk talk;
+    tc_talk_init(&talk);
+    word[n++] = strdup(c->name);
+    while (in.n > 0 && n < WORDS)
+        word[n++] = tc_fuzz_text(&in, '\n');
+    memset(&values, 0, sizeof values);
+    if (c == &tc_command_render) {
+        code = tc_render_command_read(&values.render, &talk, c, n, word);
+        if (code < 0)
+            check_render(&values.render);
+    } else {
+        code = tc_options_parse(&values, argument, &n_argument, &talk, c, n, word);
+        TC_FUZZ_CHECK(code >= 0 || (n_argument >= c->least && n_argument <= c->most));
+    }
+    TC_FUZZ_CHECK(code == -1 || code == TC_EXIT_DONE || code == TC_EXIT_USAGE || code == TC_EXIT_FAILED);
+    for (size_t i = 0; code < 0 && i < c->n_option; i++)
+        check_value(&c->option[i], values.bytes);
+    for (int i = 0; i < n; i++)
+        free(word[i]);
+    return 0;
+}
