@@ -67,7 +67,11 @@ static void run_child(char *const *argv, const char *out, const char *err)
         e = open(err, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     setpgid(0, 0);
     setrlimit(RLIMIT_CORE, &core);
+#ifndef TC_NO_MEMORY_LIMIT
     setrlimit(RLIMIT_AS, &memory);
+#else
+    (void)memory;
+#endif
     if (null < 0 || o < 0 || e < 0 || dup2(null, 0) < 0 || dup2(o, 1) < 0 || dup2(e, 2) < 0)
         _exit(126);
     execv(argv[0], argv);
@@ -167,7 +171,7 @@ static void try_one(result *r, const settings *s, const tc_datasets *sets, const
     char folder[2 * TC_PATH], out[2 * TC_PATH], picture[3 * TC_PATH], mesh[2 * TC_PATH], other[2 * TC_PATH + 1],
         log[2][2 * TC_PATH];
     char input[TC_PATH], damaged[TC_PATH];
-    char *argv[24];
+    char *argv[24], step[16];
     size_t n = 0;
     struct stat st = {0};
     int status = 0;
@@ -190,6 +194,13 @@ static void try_one(result *r, const settings *s, const tc_datasets *sets, const
         if (t->render) {
             argv[n++] = "--size", argv[n++] = "64x64", argv[n++] = "--output", argv[n++] = picture;
             argv[n++] = "--driver", argv[n++] = t->seed % 3 ? "reference" : "pingpong";
+        }
+        /* a time step's folder of OpenFOAM: that step */
+        const char *relative = set->file[t->file];
+        size_t digits = strspn(relative, "0123456789.");
+        if (*set->input && digits > 0 && relative[digits] == '/') {
+            snprintf(step, sizeof step, "%.*s", (int)digits, relative);
+            argv[n++] = "--time", argv[n++] = step;
         }
         argv[n++] = "--idle-limit", argv[n++] = "10";
         if (t->seed % 4)
@@ -358,7 +369,10 @@ int main(int argc, char **argv)
         printf("there are no real files in %s: skipped\n", s.data);
         return 77;
     }
+    int64_t start = (int64_t)time(NULL);
     int code = run_all(&s, &sets);
+    if (!tc_datasets_untouched(&sets, start))
+        code = 1;
     tc_datasets_finish(&sets);
     return code;
 }

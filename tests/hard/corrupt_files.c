@@ -4,6 +4,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -121,6 +122,22 @@ bool tc_datasets_find(tc_datasets *out, const char *data)
     return out->n > 0;
 }
 
+bool tc_datasets_untouched(const tc_datasets *sets, int64_t since_s)
+{
+    bool good = true;
+    for (size_t s = 0; s < sets->n; s++)
+        for (size_t f = 0; f < sets->set[s].n_file; f++) {
+            char path[TC_PATH];
+            struct stat st;
+            if (!join(path, sets->set[s].folder, sets->set[s].file[f]) || stat(path, &st) != 0 ||
+                (int64_t)st.st_ctime >= since_s) {
+                printf("%s was changed meanwhile\n", path);
+                good = false;
+            }
+        }
+    return good;
+}
+
 void tc_datasets_finish(tc_datasets *sets)
 {
     for (size_t s = 0; s < sets->n; s++) {
@@ -152,9 +169,11 @@ static bool load(tc_bytes *out, const char *path)
     return good;
 }
 
+/* A new file, never one that is there already or that a link leads to. */
 static bool store(const char *path, const tc_bytes *bytes)
 {
-    FILE *file = fopen(path, "wb");
+    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    FILE *file = fd < 0 ? NULL : fdopen(fd, "wb");
     bool good = file && fwrite(bytes->data, 1, bytes->n, file) == bytes->n;
     good = file && fclose(file) == 0 && good;
     if (!good)
@@ -173,8 +192,19 @@ static void make_way(const char *path)
         }
 }
 
-/* Links all files of the set's folder but one; only where more than one file is the data set. */
-static bool link_company(const char *to, const tc_dataset *set, const char *but)
+/* A copy, never a link: nothing in the scratch folder may lead back to the real files. */
+static bool copy_file(const char *from, const char *to)
+{
+    tc_bytes bytes;
+    bool good = load(&bytes, from);
+    make_way(to);
+    good = good && store(to, &bytes);
+    free(bytes.data);
+    return good;
+}
+
+/* Copies the files of the set's folder but the one that is damaged, and but one whose name the damaged one gets. */
+static bool copy_company(const char *to, const tc_dataset *set, const char *but, const char *nor)
 {
     char **name = NULL;
     size_t n = 0;
@@ -182,11 +212,8 @@ static bool link_company(const char *to, const tc_dataset *set, const char *but)
     collect(&name, &n, set->folder, "");
     for (size_t i = 0; i < n; i++) {
         char from[TC_PATH], path[TC_PATH];
-        if (good && strcmp(name[i], but) != 0) {
-            good = join(from, set->folder, name[i]) && join(path, to, name[i]);
-            make_way(path);
-            good = good && symlink(from, path) == 0;
-        }
+        if (good && strcmp(name[i], but) != 0 && strcmp(name[i], nor) != 0)
+            good = join(from, set->folder, name[i]) && join(path, to, name[i]) && copy_file(from, path);
         free(name[i]);
     }
     free(name);
@@ -224,14 +251,14 @@ bool tc_damage_make(char input[TC_PATH], char damaged[TC_PATH], const char *to, 
     if (good && damage->to == TC_DAMAGE_BYTES)
         damage->apply(&bytes, &random, &more);
     if (good && whole_folder && damage->to != TC_DAMAGE_COMPANY)
-        good = link_company(to, set, set->file[f]);
+        good = copy_company(to, set, set->file[f], name);
     if (good) {
         make_way(damaged);
         good = store(damaged, &bytes);
     }
     if (good && *set->input && damage->to == TC_DAMAGE_COMPANY && access(input, F_OK) != 0 &&
         join(path, set->folder, set->input))
-        good = symlink(path, input) == 0;
+        good = copy_file(path, input);
     free(bytes.data);
     free(more.data);
     return good;

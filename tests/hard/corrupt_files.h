@@ -24,9 +24,11 @@ typedef struct tc_datasets {
 
 /* All below a folder of data with vol/, surf/ and tf/; README and MANIFEST are left out. False: there are none. */
 bool tc_datasets_find(tc_datasets *out, const char *data);
+/* Are the real files still as they were at that time (seconds since 1970)? Prints those that are not. */
+bool tc_datasets_untouched(const tc_datasets *sets, int64_t since_s);
 void tc_datasets_finish(tc_datasets *sets);
 
-/* Makes folder `to` hold the data set with file `f` damaged; the other files are links to the originals.
+/* Makes folder `to` hold the data set with file `f` damaged; the other files are copies.
  * input gets the path to give to the program, damaged that of the damaged file. False and a message on trouble. */
 bool tc_damage_make(char input[TC_PATH], char damaged[TC_PATH], const char *to, const tc_dataset *set, size_t f,
                     const tc_damage *damage, uint64_t seed, const char *other);
