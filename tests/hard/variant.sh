@@ -39,10 +39,23 @@ float-weights)
     edit signs.glsl 's/^const float SIGN_NEAR = .*/const float SIGN_NEAR = 4.8e-7;/' 2
     ;;
 eye-origin)
-    edit ray.glsl 's/^    precise vec3 o = vec3(ray_point + x \* ray_point_dx + y \* ray_point_dy);/    double t = ray_eye < 1.0e29 ? double(ray_eye) : 0.0LF;\
+    # The origin lies t directions beyond the eye, and moves over the image as much as the direction does.
+    edit ray.glsl 's/^    precise vec3 o = vec3(ray_point + x \* ray_point_dx + y \* ray_point_dy);/    double across = length(ray_direction_dx);\
+    double t = across > 0.0LF ? length(ray_point_dx) \/ across : 0.0LF;\
     precise vec3 o = vec3(ray_point + x * ray_point_dx + y * ray_point_dy -\
                           t * (ray_direction + x * ray_direction_dx + y * ray_direction_dy));/
-        s/^    ray.eye = -ray_eye \* length_d;/    ray.eye = ray_eye < 1.0e29 ? 0.0 : -ray_eye * length_d;/' 6
+        s/^    ray.near = ray_near \* length_d;/    ray.near = (ray_near + float(t)) * length_d;/
+        s/^    ray.far = ray_far \* length_d;/    ray.far = (ray_far + float(t)) * length_d;/' 9
+    ;;
+peel-exit)
+    # The first hit walks on to the exit, and keeps that as the place to go on from.
+    edit first_hit.frag 's/^    out_key = mine;/    walk_look_ahead(w);\
+    Walk on = w;\
+    for (int n = 0; n < 100000 \&\& on.cell >= 0; n++) {\
+        walk_exact(on, ray);\
+        walk_step(on, ray);\
+    }\
+    out_key = depth_key(on.z) > key ? ivec2(depth_key(on.z), 1) : mine;/' 8
     ;;
 *)
     echo "variant.sh: there is no variant $name" >&2
