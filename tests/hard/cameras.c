@@ -109,14 +109,34 @@ static double grid_step(const place *p, int axis)
     return least < p->diagonal ? least : p->diagonal / 32;
 }
 
-/* Pixels half a grid step apart, one through a vertex: on a grid, rays through all vertices, edges and faces. */
+/* The vertex nearest the mesh's middle. */
+static const double *middle_vertex(const place *p)
+{
+    const double *best = p->mesh->vertex;
+    double least = INFINITY;
+    for (size_t i = 0; i < p->mesh->n_vertex; i++) {
+        double d[3];
+        tc_vec_sub(d, p->mesh->vertex + 3 * i, p->center);
+        if (tc_vec_length(d) < least) {
+            least = tc_vec_length(d);
+            best = p->mesh->vertex + 3 * i;
+        }
+    }
+    return best;
+}
+
+/* Pixels a part of a grid step apart, one through a vertex: on a grid, rays through all vertices, edges and faces. They
+ * stay within the middle half of the mesh's box, as rays in its sides are on no particular side of them. */
 static bool along_axis(hard_view *out, const place *p, int axis, int size)
 {
-    double d[3] = {0, 0, 0}, pitch = grid_step(p, axis == 0 ? 1 : 0) / 2;
+    const double *b = p->mesh->report.bounds;
+    int s = (axis + 1) % 3, t = (axis + 2) % 3;
+    double d[3] = {0, 0, 0}, pitch = grid_step(p, s),
+           half = 0.5 * fmin(b[2 * s + 1] - b[2 * s], b[2 * t + 1] - b[2 * t]);
     d[axis] = axis == 1 ? 1 : -1;
-    while (pitch * size < 0.25 * p->diagonal)
-        pitch *= 2;
-    return along(out, p, vertex(p, 0), d, pitch, size);
+    while (pitch * size > half && half > 0)
+        pitch /= 2;
+    return along(out, p, middle_vertex(p), d, pitch, size);
 }
 
 static bool along_x(hard_view *out, const place *p, int size)

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Views and functions that relations are tried with: whole lines in perspective and in parallel, and all colours. */
-enum { VIEW_FRONT = 0, VIEW_OBLIQUE = 2, FUNCTION_CONSTANT = 1, FUNCTION_SMOOTH = 2 };
+enum { VIEW_FRONT = 0, VIEW_OBLIQUE = 2, FUNCTION_CONSTANT = 1, FUNCTION_SMOOTH = 2, FUNCTION_OPAQUE = 3 };
 
 size_t hard_catalogue_meshes(void)
 {
@@ -26,25 +26,25 @@ size_t hard_catalogue_cells(size_t index, bool long_run)
     return long_run ? 20000 : 1500;
 }
 
+/* An eye in a face or vertex with cells that are opaque in 1e-6 of their length says nothing: what is seen is decided
+ * by less than rounding. It gets the next function. */
 static hard_case plain(size_t view, size_t function)
 {
-    return (hard_case){view % hard_view_count(), function % hard_function_count(), 0, TC_INTEGRATOR_INTEGRAL};
+    hard_case c = {view % hard_view_count(), function % hard_function_count(), 0, TC_INTEGRATOR_INTEGRAL};
+    if (c.function == FUNCTION_OPAQUE && strncmp(hard_view_name(c.view), "eye ", 4) == 0)
+        c.function++;
+    return c;
 }
 
 static size_t short_cases(hard_case *out, size_t index, bool gpu)
 {
     size_t n = 0, views = hard_view_count() - 1; /* the last is large */
-    for (size_t k = 0; k < 4; k++)
-        out[n++] = plain((4 * index + k) % views, 5 * index + 7 * k + 2);
-    out[n++] = plain(VIEW_FRONT, FUNCTION_CONSTANT);
-    if (gpu) {
-        out[n] = plain(VIEW_OBLIQUE, FUNCTION_CONSTANT);
-        out[n++].integrator = TC_INTEGRATOR_TABLE;
-    }
-    for (size_t k = 0; k < 2; k++) {
-        out[n] = plain((index + k) % 2 ? VIEW_FRONT : VIEW_OBLIQUE, FUNCTION_SMOOTH);
-        out[n++].relation = 1 + (int)((2 * index + k) % (HARD_RELATIONS - 1));
-    }
+    for (size_t k = 0; k < 3; k++)
+        out[n++] = plain((3 * index + k) % views, 5 * index + 7 * k + 2);
+    out[n] = plain(index % 2 ? VIEW_FRONT : VIEW_OBLIQUE, FUNCTION_CONSTANT);
+    out[n++].integrator = gpu && index % 4 == 0 ? TC_INTEGRATOR_TABLE : TC_INTEGRATOR_INTEGRAL;
+    out[n] = plain(index % 2 ? VIEW_OBLIQUE : VIEW_FRONT, FUNCTION_SMOOTH);
+    out[n++].relation = 1 + (int)(index % (HARD_RELATIONS - 1));
     return n;
 }
 

@@ -88,7 +88,7 @@ static size_t spikes(tc_knot *k, const ground *g)
 {
     size_t n = 0;
     for (int i = 0; i < 9; i++)
-        n += add_spike(k + n, g, 0.11 * i + 0.06, (1 + i) * 4e3 * g->depth);
+        n += add_spike(k + n, g, 0.107 * i + 0.061, (1 + i) * 4e3 * g->depth);
     return n;
 }
 
@@ -216,6 +216,22 @@ static tc_status make_by_name(hard_function *out, size_t index, const ground *g,
     return tc_transfer_create(&out->tf, &options, err);
 }
 
+/* The same function in the colour of its last knot. */
+static tc_status make_plain(hard_function *f, tc_error *err)
+{
+    size_t n;
+    const tc_knot *from = tc_transfer_knots(f->tf, &n);
+    tc_knot *knot = calloc(n, sizeof *knot);
+    if (!knot)
+        return tc_fail(err, TC_E_MEMORY, "out of memory for knots");
+    for (size_t i = 0; i < n; i++)
+        knot[i] = (tc_knot){from[i].s, from[n - 1].r, from[n - 1].g, from[n - 1].b, from[i].a};
+    tc_transfer_destroy(&f->tf);
+    tc_status status = tc_transfer_from_knots(&f->tf, knot, n, err);
+    free(knot);
+    return status;
+}
+
 tc_status hard_function_make(hard_function *out, size_t index, const hard_mesh *mesh, tc_error *err)
 {
     const double *range = mesh->report.scalar_range;
@@ -238,6 +254,8 @@ tc_status hard_function_make(hard_function *out, size_t index, const hard_mesh *
     }
     if (functions[index].refused)
         return status != TC_OK ? TC_OK : tc_fail(err, TC_E_ARG, "the function '%s' is not refused", out->name);
+    if (status == TC_OK && (mesh->generator->defects & TC_SYNTH_OVERLAPPING))
+        status = make_plain(out, &out->refused);
     return status == TC_OK ? TC_OK : tc_fail(err, status, "the function '%s': %s", out->name, out->refused.text);
 }
 

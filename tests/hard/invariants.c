@@ -146,7 +146,8 @@ static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_m
     for (size_t i = 0; i < n; i++)
         f.probe[i].pixel = choose(picture, &state, i % 4 != 0);
     tc_parallel_for(n, 4, 0, judge_range, &f);
-    size_t wrong_at = 0, broken = 0, failed = 0;
+    const probe *wrong = NULL;
+    size_t broken = 0, failed = 0;
     for (size_t i = 0; i < n; i++) {
         const probe *p = &f.probe[i];
         failed += p->failed;
@@ -155,7 +156,7 @@ static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_m
         r->cycles += p->walk.cycle > 0;
         broken += p->walk.broken > 0;
         r->wrong += p->wrong;
-        wrong_at = p->wrong ? p->pixel : wrong_at;
+        wrong = p->wrong ? p : wrong;
         r->ill_length += p->ill;
         if (!p->ill) {
             r->length_error = fmax(r->length_error, p->all);
@@ -165,9 +166,11 @@ static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_m
     size_t width = (size_t)picture->image->width;
     if (failed)
         hard_fail(r, "out of memory");
-    if (r->wrong)
-        hard_fail(r, "%zu of %zu rays do not visit the cells of brute force, one at pixel %zu, %zu", r->wrong, n,
-                  wrong_at % width, wrong_at / width);
+    if (wrong)
+        hard_fail(r,
+                  "%zu of %zu rays do not visit the cells of brute force; at pixel %zu, %zu it visits %u instead of %u",
+                  r->wrong, n, wrong->pixel % width, wrong->pixel / width, picture->audit[wrong->pixel].cells,
+                  wrong->walk.cells);
     if (broken)
         hard_fail(r, "brute force finds other than 0 or 2 faces on %zu rays", broken);
     if (!(r->length_error <= HARD_LENGTH))

@@ -211,16 +211,15 @@ static tc_status find_cells(scratch *s, uint32_t *broken, const hard_judge *j)
 
 /* ------------------------------------------------------------------------------------------------------- walk */
 
-/* The ray of a pixel in float, as the shaders make it. GPUs divide by multiplying with a reciprocal. */
+/* The ray of a pixel in float, as the shaders make it. */
 typedef struct float_ray {
     float o[3], u[3], v[3], d[3], near, far; /* near, far: depths of the planes that clip */
 } float_ray;
 
 static void divide(float *a, float by)
 {
-    float inverse = 1.0f / by;
     for (int k = 0; k < 3; k++)
-        a[k] = a[k] * inverse;
+        a[k] /= by;
 }
 
 static float length3(const float *a)

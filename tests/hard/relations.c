@@ -17,6 +17,9 @@ const char *hard_relation_name(int relation)
 bool hard_relation_fits(int relation, const hard_mesh *mesh)
 {
     const unsigned bad = TC_SYNTH_DEGENERATE | TC_SYNTH_NONFINITE_POINTS | TC_SYNTH_NONFINITE_VALUES;
+    const double largest = 1e15; /* an audit's lengths are floats */
+    if (relation == HARD_SMALL || relation == HARD_LARGE)
+        return mesh->diagonal < largest && mesh->diagonal > 1 / largest;
     if (relation == HARD_REFINED4 || relation == HARD_REFINED8)
         return !(mesh->generator->defects & bad);
     return true;
