@@ -137,7 +137,7 @@ void tc_empty_reason(char *why, size_t capacity, const tc_mesh_report *report, c
     const char *name = field && *field ? field : "the field";
     const tc_knot *knot = tc_transfer_knots(tf, &n);
     tc_box_in_view(depth, &aside, b, camera, size);
-    if (report->nonfinite_cells >= report->n_tet)
+    if (report->nonfinite_cells > 0 && report->nonfinite_cells >= report->n_tet)
         snprintf(why, capacity, "every cell has a value of %s that is not finite; --nan-color shows them", name);
     else if (tc_opacity_peak(tf, lo, hi) <= 0)
         snprintf(why, capacity,

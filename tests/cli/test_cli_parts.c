@@ -166,8 +166,15 @@ static void empty_picture_names_its_reason(void **state)
     reason_is(&scene, held, 2, "within the view");
     scene.camera.focal_point[2] = 16;
     reason_is(&scene, solid, 2, "behind the camera");
-    scene.camera.parallel = true; /* a parallel ray has no beginning */
-    reason_is(&scene, solid, 2, "within the view");
+    scene.camera.parallel = true; /* nothing behind the camera is seen there, either */
+    reason_is(&scene, solid, 2, "behind the camera");
+    scene_make(&scene);
+    scene.camera.clip_near = 100;
+    scene.camera.clip_far = 200;
+    reason_is(&scene, solid, 2, "outside the clipping range 100 to 200");
+    scene.camera.clip_near = 0;
+    scene.camera.clip_far = 0.001;
+    reason_is(&scene, solid, 2, "outside the clipping range 0 to 0.001");
     scene_make(&scene);
     scene.camera.focal_point[0] = 8;
     reason_is(&scene, solid, 2, "outside the view");
@@ -177,9 +184,10 @@ static void empty_picture_names_its_reason(void **state)
     reason_is(&scene, solid, 2, "outside the view");
     scene.camera.parallel_scale = 9;
     reason_is(&scene, solid, 2, "within the view");
-    scene.report.scalar_range[0] = INFINITY;
-    scene.report.scalar_range[1] = -INFINITY;
-    reason_is(&scene, solid, 2, "no value of heat is finite");
+    scene.report.n_tet = scene.report.nonfinite_cells = 7;
+    reason_is(&scene, solid, 2, "every cell has a value of heat that is not finite");
+    scene.report.nonfinite_cells = 6;
+    reason_is(&scene, solid, 2, "within the view");
 }
 
 static void one_faint_pixel_is_not_empty(void **state)

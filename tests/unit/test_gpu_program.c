@@ -143,7 +143,8 @@ enum {
     TABLE = 32,
     EXTEND = 64,
     FAR = 128,
-    N_FEATURES = 256
+    MISSING = 256,
+    N_FEATURES = 512
 };
 
 static tc_job job_of(int features, const tc_frame *frame)
@@ -154,6 +155,8 @@ static tc_job job_of(int features, const tc_frame *frame)
                     .peel = features & PEEL,
                     .cell_data = features & CELLS,
                     .extend = features & EXTEND,
+                    .nonfinite = features & MISSING,
+                    .has_nan_color = (features & MISSING) && (features & CELLS), /* asked for, too */
                     .count = features & COUNT};
 }
 
@@ -196,6 +199,9 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
                                INSIDE,
                                FAR,
                                INSIDE | FAR,
+                               MISSING,
+                               MISSING | CELLS,
+                               MISSING | CELLS | TABLE,
                                COUNT,
                                TABLE,
                                TABLE | EXTEND,
@@ -214,6 +220,7 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
         expect_uniform(gl, march, "tf_table", f & TABLE, f);
         expect_uniform(gl, march, "tf_nodes", !(f & TABLE), f);
         expect_uniform(gl, march, "peel_key", false, f);
+        expect_uniform(gl, march, "nan_color", (f & MISSING) && (f & CELLS), f);
         expect_uniform(gl, march, "ray_near", f & INSIDE, f);
         expect_uniform(gl, march, "ray_far", f & FAR, f);
         GLuint first = get(cache, "first_hit.vert", "first_hit.frag", &job);
@@ -286,7 +293,7 @@ static void a_plain_scene_defines_anything(void **state)
     job = job_of(N_FEATURES - 1, &inside);
     tc_job_defines(defines, sizeof defines, &job);
     static const char *const all[] = {"HAS_IMAGINARY", "PEEL", "CELL_DATA", "CLIP_NEAR", "CLIP_FAR", "COUNT"};
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < 6; i++)
         assert_int_equal(count(defines, all[i]), 1);
 }
 
@@ -297,12 +304,12 @@ static void some_shader_does_not_compile(void **state)
     tc_program_cache *cache;
     if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
         skip();
-    for (int f = 0; f < N_FEATURES; f += 7) { /* odd steps meet every pair of features */
+    for (int f = 0; f < N_FEATURES; f += 13) { /* odd steps meet every pair of features */
         tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
         for (int way = 0; way < 4; way++) {
             tc_job job = job_of(f, &frame);
             job.pieces = way & 1;
-            job.nonfinite = way & 1;
+            job.nonfinite = job.nonfinite || way & 1;
             job.software = way & 2;
             get(cache, "screen.vert", "march.frag", &job);
             get(cache, "first_hit.vert", "first_hit.frag", &job);
