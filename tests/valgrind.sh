@@ -1,5 +1,5 @@
 #!/bin/sh
-# valgrind.sh BUILD [NAME…]: memcheck (errors and leaks) of the unit tests and commands that use no GL; all of them, or only
+# valgrind.sh BUILD [NAME…]: memcheck (errors and leaks) of the unit tests and commands that use no GL; all, or only
 # those named. Helper programs run as they are: they are mostly other people's libraries.
 set -u
 build=$(cd "$1" && pwd) || exit 1
@@ -39,7 +39,7 @@ for test in "$build"/tests/test_*; do
     name=$(basename "$test")
     case $name in
     test_gpu_context | test_gpu_program | test_gpu_signs | test_gpu_watch) ;; # GL: Mesa makes code as it runs
-    test_gpu_propose) ;; # every face against every pixel: minutes
+    test_gpu_propose | test_synth_shapes | test_synth_defects) ;; # minutes here; make sanitize has them
     *) check "$name" "$test" ;;
     esac
 done
