@@ -83,7 +83,8 @@ static tc_status get_programs(loop *l)
                                                     : "integrate_integral.glsl",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
     const tc_program_source march = {"screen.vert", "march.frag", defines, alias};
-    const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL}, lost = {"screen.vert", "lost.frag", "", NULL};
+    const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL},
+                            lost = {"screen.vert", "lost.frag", "", NULL};
     tc_status status = tc_program_get(&l->march, job->programs, &march, l->err);
     if (status == TC_OK)
         status = tc_program_get(&l->lock, job->programs, &lock, l->err);

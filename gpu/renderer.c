@@ -94,7 +94,8 @@ const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer)
     return renderer->context;
 }
 
-static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, bool planes, tc_render_stats *stats, tc_error *err)
+static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, bool planes, tc_render_stats *stats,
+                             tc_error *err)
 {
     const tc_gl *gl = &r->context->gl;
     if (r->mesh_serial == mesh->serial && r->scalar_serial == mesh->scalar_serial && r->planes == planes)
@@ -357,10 +358,11 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     if (status == TC_OK && job.audit && !planes) /* planes are not said to hold the ray */
         status = count_broken(stats, r, err);
     if (status == TC_OK && result.rays_lost > 0 && planes)
-        status = tc_fail(err, TC_E_LOST,
-                         "%lld of %lld rays were lost by the stepper 'planes', the arithmetic of the paper, which is here "
-                         "to be compared with; the stepper 'signs' loses none",
-                         (long long)result.rays_lost, (long long)result.rays);
+        status =
+            tc_fail(err, TC_E_LOST,
+                    "%lld of %lld rays were lost by the stepper 'planes', the arithmetic of the paper, which is here "
+                    "to be compared with; the stepper 'signs' loses none",
+                    (long long)result.rays_lost, (long long)result.rays);
     else if (status == TC_OK && result.rays_lost > 0)
         status =
             tc_fail(err, TC_E_LOST, "%lld of %lld rays were lost; the picture is not to be trusted, please report it",

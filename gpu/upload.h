@@ -21,8 +21,8 @@ typedef struct tc_gpu_mesh {
     double ms;
 } tc_gpu_mesh;
 
-/* planes: NULL, or what the stepper of the paper's arithmetic reads; it stands in for the cells' records, which stay away
- * then. Errors: TC_E_MEMORY (with the figure needed), TC_E_GL. */
+/* planes: NULL, or what the stepper of the paper's arithmetic reads; it stands in for the cells' records, which stay
+ * away then. Errors: TC_E_MEMORY (with the figure needed), TC_E_GL. */
 tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, const tc_pack_planes *planes,
                              tc_error *err);
 void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl);

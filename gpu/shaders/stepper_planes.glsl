@@ -1,7 +1,7 @@
-// stepper_planes.glsl: moves a ray through one tetrahedron by the arithmetic of Weiler et al. 2003: intersections with the
-// planes of the faces (eq. 1), the nearest face that the ray leaves through, the scalar from the cell's gradient (eq. 2),
-// all in float, from the textures of Table 1. It stands behind the functions of stepper.glsl to be compared with it: it
-// loses rays, which stepper.glsl does not.
+// stepper_planes.glsl: moves a ray through one tetrahedron by the arithmetic of Weiler et al. 2003: intersections with
+// the planes of the faces (eq. 1), the nearest face that the ray leaves through, the scalar from the cell's gradient
+// (eq. 2), all in float, from the textures of Table 1. It stands behind the functions of stepper.glsl to be compared
+// with it: it loses rays, which stepper.glsl does not.
 //
 // Lost are: a ray that no face of its cell lets out, and one that comes to a face of a cell for the second time, since
 // where it goes next depends on the two alone (R. P. Brent 1980: compare with a place kept, and keep another one after

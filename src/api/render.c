@@ -240,8 +240,10 @@ tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *rendere
     tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = options, .log = log};
     tc_status status = tc_render_resolve(&frame.unit_distance, &rays, mesh, tf, camera, options, err);
     if (status == TC_OK && options->stepper != TC_STEPPER_SIGNS && !renderer->gpu)
-        status = tc_fail(err, TC_E_ARG, "the driver '%s' does not walk from cell to cell: the stepper 'planes' needs the "
-                         "driver 'pingpong'", renderer->driver->name);
+        status = tc_fail(err, TC_E_ARG,
+                         "the driver '%s' does not walk from cell to cell: the stepper 'planes' needs the "
+                         "driver 'pingpong'",
+                         renderer->driver->name);
     if (status == TC_OK)
         status = tc_image_create(out, options->width, options->height, err);
     if (status != TC_OK)

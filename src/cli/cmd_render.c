@@ -56,8 +56,8 @@ static void tc_render_set(tc_render_options *out, const tc_render_command *optio
     out->count = false;
 }
 
-/* One frame into run->image. -1, or an exit code; a lost ray is an error after its numbers are kept in *stats. Rays that
- * the paper's arithmetic loses are what it is there to show: the run goes on to its end. */
+/* One frame into run->image. -1, or an exit code; a lost ray is an error after its numbers are kept in *stats. Rays
+ * that the paper's arithmetic loses are what it is there to show: the run goes on to its end. */
 static int tc_frame(tc_render_run *run, tc_render_stats *stats, tc_renderer *renderer, bool count, tc_talk *talk)
 {
     tc_error err = {0};

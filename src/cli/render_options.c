@@ -248,11 +248,13 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
         return TC_EXIT_USAGE;
     }
     if (out->stepper == TC_STEPPER_PLANES && !strcmp(out->driver, "reference")) {
-        tc_talk_error(talk, "--stepper planes walks from cell to cell, which --driver reference does not: leave one out");
+        tc_talk_error(talk,
+                      "--stepper planes walks from cell to cell, which --driver reference does not: leave one out");
         return TC_EXIT_USAGE;
     }
     if (out->stepper == TC_STEPPER_PLANES && out->audit) {
-        tc_talk_error(talk, "--audit counts faces that hold the ray, which --stepper planes does not ask: leave one out");
+        tc_talk_error(talk,
+                      "--audit counts faces that hold the ray, which --stepper planes does not ask: leave one out");
         return TC_EXIT_USAGE;
     }
     if (out->preset && !out->color_map) {
