@@ -11,8 +11,8 @@
 enum { SIZE = 72, N = 4 };
 
 /* A cube of N^3 unit cubes, each of six tets (Kuhn 1960), scalar 1 + 2x + 3y + 5z; as cell data that of the cube's
- * number. */
-static tc_mesh *cube(tc_association association, tc_reentry reentry)
+ * number. With a slot, the cubes 1 <= x < 2, y >= 2 are missing. */
+static tc_mesh *grid(tc_association association, tc_reentry reentry, bool slot)
 {
     enum { S = N + 1 };
     static const int path[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
@@ -24,7 +24,7 @@ static tc_mesh *cube(tc_association association, tc_reentry reentry)
         double *p = vertex[i];
         p[0] = i % S, p[1] = i / S % S, p[2] = i / (S * S);
         points[i] = 1 + 2 * p[0] + 3 * p[1] + 5 * p[2];
-        if (p[0] == N || p[1] == N || p[2] == N)
+        if (p[0] == N || p[1] == N || p[2] == N || (slot && p[0] == 1 && p[1] >= 2))
             continue;
         for (int q = 0; q < 6; q++, t++) {
             cells[t] = (t / 6 * 7) % 41;
@@ -33,11 +33,19 @@ static tc_mesh *cube(tc_association association, tc_reentry reentry)
                 tet[t][a + 1] = tet[t][a] + step[path[q][a]];
         }
     }
-    assert_int_equal(t, 6 * N * N * N);
-    const tc_mesh_arrays arrays = {
-        S * S * S,   vertex[0], 6 * N * N * N, tet[0], association == TC_CELL_DATA ? cells : points,
-        association, "field"};
+    const tc_mesh_arrays arrays = {.n_vertex = S * S * S,
+                                   .vertex = vertex[0],
+                                   .n_tet = (size_t)t,
+                                   .tet = tet[0],
+                                   .scalar = association == TC_CELL_DATA ? cells : points,
+                                   .association = association,
+                                   .field_name = "field"};
     return suite_mesh(&arrays, reentry);
+}
+
+static tc_mesh *cube(tc_association association, tc_reentry reentry)
+{
+    return grid(association, reentry, false);
 }
 
 static tc_camera look(const double *from, const double *to, double angle)
@@ -79,20 +87,28 @@ static void eye_on_a_vertex_edge_or_face_sees_something_else(void **state)
         {"the hull's edge", {1.5, 0, 0}},
         {"the hull's vertex", {2, 0, 3}},
         {"the hull's face", {1.4, 0, 2.7}},
+        {"the slot's corner", {2, 4, 4}},
+        {"the slot's wall", {1, 3, 2}},
+        {"the slot's floor", {1.3, 2, 2.6}},
+        {"the slot's middle", {1.5, 3.1, 1.9}},
     };
     static const double ways[][3] = {{1, 0, 0}, {0, 0, -1}, {1, 1, 0}, {1, 1, 1}, {0.3, -0.7, 0.2}};
-    tc_mesh *mesh = cube(TC_POINT_DATA, TC_REENTRY_AUTO);
-    for (size_t e = 0; e < sizeof eyes / sizeof *eyes; e++)
-        for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
-            double to[3];
-            tc_vec_add(to, eyes[e].at, ways[w]);
-            char what[64];
-            snprintf(what, sizeof what, "eye on %s, way %zu", eyes[e].name, w);
-            /* An even number of pixels: no ray along the axis itself, of which nobody can tell in what cell it runs. */
-            tc_camera camera = look(eyes[e].at, to, w % 2 ? 70 : 125);
-            check(what, mesh, &camera, false);
-        }
-    tc_mesh_destroy(&mesh);
+    static const char *const meshes[] = {"cube", "slot, convexified", "slot, peeled"};
+    for (int m = 0; m < 3; m++) {
+        tc_mesh *mesh = grid(TC_POINT_DATA, m == 2 ? TC_REENTRY_PEEL : m ? TC_REENTRY_CONVEXIFY : TC_REENTRY_AUTO, m);
+        for (size_t e = 0; e < sizeof eyes / sizeof *eyes; e++)
+            for (size_t w = (e + (size_t)m) % 2; w < sizeof ways / sizeof *ways; w += 2) {
+                double to[3];
+                tc_vec_add(to, eyes[e].at, ways[w]);
+                char what[80];
+                snprintf(what, sizeof what, "%s, eye on %s, way %zu", meshes[m], eyes[e].name, w);
+                /* An even number of pixels: no ray along the axis itself, of which nobody can tell in what cell it is.
+                 */
+                tc_camera camera = look(eyes[e].at, to, w % 2 ? 70 : 125);
+                check(what, mesh, &camera, false);
+            }
+        tc_mesh_destroy(&mesh);
+    }
 }
 
 static void eye_in_a_gap_or_a_cavity_sees_something_else(void **state)
@@ -264,6 +280,35 @@ static void a_range_that_holds_all_changes_the_picture(void **state)
     }
 }
 
+static void walks_go_on_behind_the_far_plane(void **state)
+{
+    (void)state;
+    if (!suite_is_gpu())
+        skip(); /* the reference does not walk */
+    tc_mesh *mesh = cube(TC_POINT_DATA, TC_REENTRY_AUTO);
+    tc_transfer *tf = flat();
+    tc_render_options options = suite_options(SIZE, SIZE);
+    options.opacity_stop = 1;
+    options.count = true;
+    const double from[3] = {2.1, 1.8, 12}, to[3] = {2.1, 1.8, 0};
+    tc_camera camera = look(from, to, 20);
+    tc_render_stats whole, half, none;
+    tc_image *image = suite_render(&whole, mesh, tf, &camera, &options);
+    tc_image_destroy(&image);
+    camera.clip_near = 1, camera.clip_far = 10; /* the cube lies 8 to 12 before the eye */
+    image = suite_render(&half, mesh, tf, &camera, &options);
+    tc_image_destroy(&image);
+    camera.clip_far = 7;
+    image = suite_render(&none, mesh, tf, &camera, &options);
+    tc_image_destroy(&image);
+    suite_say("steps %lld, to the middle %lld, before the mesh %lld", (long long)whole.steps, (long long)half.steps,
+              (long long)none.steps);
+    assert_true(half.steps > whole.steps * 4 / 10 && half.steps < whole.steps * 6 / 10);
+    assert_true(none.steps == 0 && none.rays == 0);
+    tc_transfer_destroy(&tf);
+    tc_mesh_destroy(&mesh);
+}
+
 /* --------------------------------------------------------------------------------------------------- odd cameras */
 
 static void up_along_the_view_makes_another_picture_than_stated(void **state)
@@ -351,6 +396,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(parallel_projection_shows_what_is_behind_the_camera),
         cmocka_unit_test(clipped_fields_are_cut_elsewhere),
         cmocka_unit_test(a_range_that_holds_all_changes_the_picture),
+        cmocka_unit_test(walks_go_on_behind_the_far_plane),
         cmocka_unit_test(up_along_the_view_makes_another_picture_than_stated),
         cmocka_unit_test(extreme_angles_distances_or_sizes_are_wrong),
         cmocka_unit_test(wrong_clipping_ranges_are_taken),

@@ -331,6 +331,10 @@ static void rays_of_the_frame_are_beside_the_cameras(void **state)
             if (!parallel && fabs(distance[i] - 0.5) > 0.02)
                 assert_true(frame.eye_inside == (distance[i] < 0.5));
             assert_false(frame.hidden);
+            if (fabs(distance[i] - 0.5) > 0.005) { /* the plane of an eye outside cuts nothing here */
+                assert_true(frame.clip_near == (distance[i] < 0.5));
+                assert_false(frame.clip_far || frame.ahead);
+            }
             double tolerance = 1e-12 + 4e-15 * distance[i]; /* what an eye so far away keeps of its digits */
             for (int k = 0; k < 20; k++) {
                 double X = (k * 97) % 300 + 0.5, Y = (k * 61) % 200 + 0.5, origin[3], direction[3], o[3], d[3], off[3];
