@@ -244,7 +244,8 @@ typedef struct tc_camera {
     double parallel_scale; /* half the view's height in the mesh's unit */
     bool parallel;
     double clip_near, clip_far; /* only what lies between these distances before the eye's plane, along the view, is seen,
-                                   in the mesh's unit; both 0: all that is before the eye */
+                                   in the mesh's unit; both 0: all that is before the eye, in
+                                   parallel projection, too */
 } tc_camera;
 
 /* Whole box in view from direction (from focal point to eye), as vtkRenderer::ResetCamera does.
