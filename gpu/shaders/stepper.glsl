@@ -15,6 +15,9 @@
 #include "signs.glsl"
 #include "mesh.glsl"
 
+// Rounding of a depth within the mesh: half diagonals, of which it reaches over 2.
+const float WALK_DEPTH_ROUNDING = 4.0e-7;
+
 // A ray at a face that holds it, about to enter `cell` through it.
 struct Walk {
     int cell;      // where the cell's record starts; -1: outside
@@ -145,15 +148,17 @@ Segment walk_step(inout Walk w, Ray ray)
     segment.z0 = w.z;
     segment.s0 = w.s;
     vec2 at = walk_face_point(w);
-    // An empty segment advances neither depth nor scalar; depth never goes back. Behind an imaginary cell the scalar is
-    // always the face's own: the one before it belonged to other vertices.
-    bool forward = at.x > w.z;
+    // Depth never goes back. Where it stands still within rounding, as in a layer of no thickness, the scalar is that of the
+    // face behind, which may be cut into other triangles than the one before; where a folded cell's exit lies further back,
+    // that exit's scalar belongs elsewhere and is not taken. Behind an imaginary cell the scalar is always the face's own:
+    // the one before it belonged to other vertices.
+    bool here = at.x > w.z - WALK_DEPTH_ROUNDING;
 #ifdef NONFINITE
-    w.s = forward || !segment.real || isnan(w.s) || isnan(at.y) ? at.y : w.s;
+    w.s = here || !segment.real || isnan(w.s) || isnan(at.y) ? at.y : w.s;
 #else
-    w.s = forward || !segment.real ? at.y : w.s;
+    w.s = here || !segment.real ? at.y : w.s;
 #endif
-    w.z = forward ? at.x : w.z;
+    w.z = max(w.z, at.x);
     segment.z1 = w.z;
     segment.s1 = w.s;
     return segment;

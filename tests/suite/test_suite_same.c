@@ -1,4 +1,5 @@
-/* test_suite_same.c: what must not change the picture: refining, reordering, filling gaps or peeling, a second frame. */
+/* test_suite_same.c: what must not change the picture: refining, reordering, filling gaps or peeling, a second frame.
+ */
 #include "suite.h"
 
 #include "datasets_synthetic/synth.h"
@@ -274,9 +275,40 @@ static void a_renderer_keeps_something_of_the_frame_before(void **state)
     tc_mesh_destroy(&b);
 }
 
+/* A layer of cells in the middle of a lattice becomes flat; its two sides keep vertices at other places, so that they
+ * interpolate the field differently, and the scalar jumps where a ray passes it. */
+static void the_scalar_does_not_jump_at_a_flat_layer(void **state)
+{
+    (void)state;
+    field f = build_field("kuhn", 10368);
+    const int n = 12; /* 6 n^3 tets */
+    assert_int_equal(f.soup.n_tet, 6 * n * n * n);
+    for (size_t i = 0; i < f.soup.n_vertex; i++) {
+        double *p = f.soup.vertex + 3 * i;
+        int layer = (int)lround(p[2] * n);
+        p[2] = (layer > n / 2 ? layer - 1 : layer) / (double)n;
+        f.scalar[i] = sin(25 * p[0]) * cos(21 * p[1]);
+    }
+    tc_mesh *mesh = mesh_of(&f, TC_REENTRY_CONVEXIFY);
+    tc_mesh_report report;
+    tc_mesh_get_report(&report, mesh);
+    assert_true(report.zero_volume > 5 * n * n); /* those at corners repeat a vertex and go */
+    tc_transfer *tf = suite_function((const tc_knot[]){{-1, 0, 0, 1, 0}, {0, 1, 1, 0, 0.1}, {1, 1, 0, 0, 3}}, 3);
+    tc_render_options options = suite_options(SIZE, SIZE);
+    static const double from[][3] = {{0.3, 0.2, 1}, {0.7, 0.1, 0.7}, {0.1, 1, 0.2}};
+    for (size_t k = 0; k < sizeof from / sizeof *from; k++) {
+        tc_camera camera = suite_camera(mesh, from[k][0], from[k][1], from[k][2], k == 1);
+        suite_check("flat layer", mesh, tf, &camera, &options);
+    }
+    tc_transfer_destroy(&tf);
+    tc_mesh_destroy(&mesh);
+    free_field(&f);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_scalar_does_not_jump_at_a_flat_layer),
         cmocka_unit_test(a_finer_mesh_of_a_linear_field_looks_different),
         cmocka_unit_test(refined_or_permuted_heat_sink_looks_different),
         cmocka_unit_test(gaps_of_the_heat_sink_are_crossed_wrongly),
