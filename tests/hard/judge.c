@@ -367,7 +367,8 @@ static int by_entry(const void *a, const void *b)
 static double union_of(span *s, size_t n)
 {
     double length = 0, to = -INFINITY;
-    qsort(s, n, sizeof *s, by_entry);
+    if (n > 0)
+        qsort(s, n, sizeof *s, by_entry);
     for (size_t i = 0; i < n; i++) {
         double from = fmax(s[i].z0, to);
         if (s[i].z1 > from) {
