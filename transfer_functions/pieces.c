@@ -2,6 +2,7 @@
 #include "transfer_functions/pieces.h"
 
 #include "core/memory.h"
+#include "transfer_functions/place.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,12 +23,6 @@ static tc_piece constant(float from, float to, const tc_knot *k)
     tc_piece p = {.from = from, .to = to};
     knot_value(p.value, k);
     return p;
-}
-
-/* s → x, halves first: the range may exceed what a double holds. */
-static double place(double s, const double span[2])
-{
-    return (0.5 * s - 0.5 * span[0]) / (0.5 * span[1] - 0.5 * span[0]);
 }
 
 static tc_piece linear(double x0, double x1, const tc_knot *p, const tc_knot *q)
@@ -51,13 +46,13 @@ tc_status tc_pieces_build(tc_pieces *out, const tc_transfer *tf, const double sp
         return tc_fail_memory(err, "the pieces of a transfer function", tf->n + 1, sizeof *piece);
     size_t n = 0, first = 0, last = tf->n - 1;
     /* Knots from the last one at or before x = 0 to the first one at or behind x = 1. */
-    while (first < last && place(tf->knot[first + 1].s, span) <= 0)
+    while (first < last && tc_place(tf->knot[first + 1].s, span[0], span[1]) <= 0)
         first++;
-    while (last > first && place(tf->knot[last - 1].s, span) >= 1)
+    while (last > first && tc_place(tf->knot[last - 1].s, span[0], span[1]) >= 1)
         last--;
-    piece[n++] = constant(-TC_PIECE_FAR, (float)place(tf->knot[first].s, span), &tf->knot[first]);
+    piece[n++] = constant(-TC_PIECE_FAR, (float)tc_place(tf->knot[first].s, span[0], span[1]), &tf->knot[first]);
     for (size_t k = first; k < last; k++) {
-        double x0 = piece[n - 1].to, x1 = place(tf->knot[k + 1].s, span);
+        double x0 = piece[n - 1].to, x1 = tc_place(tf->knot[k + 1].s, span[0], span[1]);
         if ((float)x1 > (float)x0)
             piece[n++] = linear(x0, x1, &tf->knot[k], &tf->knot[k + 1]);
     }
