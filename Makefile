@@ -5,6 +5,7 @@
 #   make test       build everything and run all tests
 #   make sanitize   the same with address and undefined-behaviour sanitizers, in build/sanitize
 #   make valgrind   what needs no GL under Valgrind's memcheck, in build/valgrind
+#   make hard       the hard cases at length: 100 million rays, beside VTK's renderers; tables in build/hard-cases
 #   make fuzz       FUZZ_SECONDS (60) of random inputs for each part that reads what others wrote; FUZZ_TARGETS=… for some
 #   make bench      measure, side by side with VTK
 #   make docs       the figures in docs/images, and the manual pages as HTML in build/docs
@@ -40,7 +41,7 @@ else
 packages = :
 endif
 
-.PHONY: all configure demo test sanitize valgrind fuzz bench docs install clean
+.PHONY: all configure demo test sanitize valgrind hard fuzz bench docs install clean
 .DEFAULT_GOAL := all
 
 all: configure
@@ -79,6 +80,12 @@ valgrind:
 		-DCMAKE_BUILD_TYPE=RelWithDebInfo -DTC_WERROR=$(WERROR) $(CMAKE_ARGS)
 	cmake --build $(BUILD)/valgrind -j $(JOBS) --target all --target all_tests
 	sh tests/valgrind.sh $(BUILD)/valgrind
+
+# A context that is missing (77) is skipped. Each step runs whatever the others said.
+hard: all
+	@$(call packages,$(BENCH_PACKAGES))
+	cmake --build $(BUILD) -j $(JOBS) --target hard corrupt
+	sh tests/hard/run.sh $(BUILD)
 
 # In build/fuzz, by clang. An input that breaks something stays in build/fuzz/crashes, what is new in build/fuzz/found.
 fuzz:

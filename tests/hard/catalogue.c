@@ -7,23 +7,30 @@
 /* Views and functions that relations are tried with: whole lines in perspective and in parallel, and all colours. */
 enum { VIEW_FRONT = 0, VIEW_OBLIQUE = 2, FUNCTION_CONSTANT = 1, FUNCTION_SMOOTH = 2, FUNCTION_OPAQUE = 3 };
 
-size_t hard_catalogue_meshes(void)
+enum { CELLS_SHORT = 1500, CELLS_LONG = 8000, CELLS_HUGE = 10000000 };
+
+static size_t generators(void)
 {
     size_t n;
     tc_synth_list(&n);
     return n;
 }
 
+size_t hard_catalogue_meshes(bool long_run)
+{
+    return generators() + long_run;
+}
+
 const char *hard_catalogue_mesh(size_t index)
 {
     size_t n;
-    return tc_synth_list(&n)[index].name;
+    const tc_synth_info *info = tc_synth_list(&n);
+    return index < n ? info[index].name : "kuhn";
 }
 
 size_t hard_catalogue_cells(size_t index, bool long_run)
 {
-    (void)index;
-    return long_run ? 20000 : 1500;
+    return index >= generators() ? CELLS_HUGE : long_run ? CELLS_LONG : CELLS_SHORT;
 }
 
 /* An eye in a face or vertex with cells that are opaque in 1e-6 of their length says nothing: what is seen is decided
@@ -68,18 +75,29 @@ static size_t long_cases(hard_case *out, size_t index, bool gpu)
     return n;
 }
 
+static size_t huge_cases(hard_case *out)
+{
+    size_t n = 0;
+    for (size_t v = 0; v < hard_view_count(); v += 4)
+        out[n++] = plain(v, v / 4);
+    return n;
+}
+
 size_t hard_catalogue_cases(hard_case *out, size_t index, bool long_run, bool gpu)
 {
-    size_t n = long_run ? long_cases(out, index, gpu) : short_cases(out, index, gpu);
+    size_t n = index >= generators() ? huge_cases(out)
+               : long_run            ? long_cases(out, index, gpu)
+                                     : short_cases(out, index, gpu);
     for (size_t i = 0; i < n; i++)
         if (out[i].relation == HARD_REVERSED)
             out[i].view = VIEW_OBLIQUE; /* perspective rays have no common other side */
     return n;
 }
 
-void hard_case_name(char *out, size_t capacity, const char *mesh, const hard_case *c)
+void hard_case_name(char *out, size_t capacity, size_t index, const hard_case *c)
 {
-    snprintf(out, capacity, "%s; %s; %s%s%s%s", mesh, hard_view_name(c->view), hard_function_name(c->function),
+    snprintf(out, capacity, "%s%s; %s; %s%s%s%s", hard_catalogue_mesh(index),
+             index >= generators() ? " of 1e7 cells" : "", hard_view_name(c->view), hard_function_name(c->function),
              c->relation ? "; " : "", c->relation ? hard_relation_name(c->relation) : "",
              c->integrator == TC_INTEGRATOR_TABLE ? "; table" : "");
 }

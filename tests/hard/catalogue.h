@@ -13,9 +13,9 @@ typedef struct hard_case {
 
 enum { HARD_CASES_MOST = 256 };
 
-/* The meshes: every name of tc_synth_list; static memory. */
+/* The meshes: every name of tc_synth_list, and in a long run one of ten million cells. Names are static. */
 const char *hard_catalogue_mesh(size_t index);
-size_t hard_catalogue_meshes(void);
+size_t hard_catalogue_meshes(bool long_run);
 /* Cells to ask that mesh for. */
 size_t hard_catalogue_cells(size_t index, bool long_run);
 
@@ -25,6 +25,6 @@ size_t hard_catalogue_cells(size_t index, bool long_run);
 size_t hard_catalogue_cases(hard_case *out, size_t index, bool long_run, bool gpu);
 
 /* "mesh; view; function[; relation][; table]" */
-void hard_case_name(char *out, size_t capacity, const char *mesh, const hard_case *c);
+void hard_case_name(char *out, size_t capacity, size_t index, const hard_case *c);
 
 #endif

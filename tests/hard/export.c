@@ -23,7 +23,8 @@ static json_t *json_point(const double *p)
     return json_pack("[f,f,f]", p[0], p[1], p[2]);
 }
 
-static json_t *json_case(const char *name, const hard_mesh *mesh, const hard_view *view, const hard_function *f)
+static json_t *json_case(const char *name, const hard_mesh *mesh, const hard_view *view, const hard_function *f,
+                         size_t ill_posed)
 {
     size_t n;
     const tc_knot *knot = tc_transfer_knots(f->tf, &n);
@@ -36,8 +37,9 @@ static json_t *json_case(const char *name, const hard_mesh *mesh, const hard_vie
                   "view_up", json_point(c->view_up), "view_angle", c->view_angle);
     if (c->parallel)
         json_object_set_new(camera, "parallel_scale", json_real(c->parallel_scale));
-    return json_pack("{s:s s:[i,i] s:f s:o s:o}", "name", name, "size", view->width, view->height, "unit_distance",
-                     mesh->unit, "camera", camera, "knots", knots);
+    return json_pack("{s:s s:[i,i] s:f s:b s:I s:o s:o}", "name", name, "size", view->width, view->height,
+                     "unit_distance", mesh->unit, "eye_inside", !view->whole, "ill_posed", (json_int_t)ill_posed,
+                     "camera", camera, "knots", knots);
 }
 
 static tc_status write_pixels(const char *path, const tc_image *image, tc_error *err)
@@ -52,6 +54,7 @@ static tc_status export_case(const char *stem, const char *name, const hard_mesh
     char path[1200];
     tc_rays rays;
     tc_render_options options;
+    tc_verify_result judged = {0};
     tc_image *truth = NULL, *ours = NULL;
     tc_render_defaults(&options);
     options.width = view->width;
@@ -64,6 +67,9 @@ static tc_status export_case(const char *stem, const char *name, const hard_mesh
         status = tc_reference_render(truth, mesh->reference, f->tf, mesh->unit, &rays, 0, NULL, err);
     if (status == TC_OK)
         status = tc_render(&ours, NULL, renderer, mesh->mesh, f->tf, &view->camera, &options, NULL, err);
+    if (status == TC_OK)
+        status =
+            tc_reference_verify(&judged, ours, SIZE_MAX, 1, mesh->reference, f->tf, mesh->unit, &rays, 0, NULL, err);
     if (status == TC_OK) {
         snprintf(path, sizeof path, "%s.reference.rgba", stem);
         status = write_pixels(path, truth, err);
@@ -73,11 +79,15 @@ static tc_status export_case(const char *stem, const char *name, const hard_mesh
         status = write_pixels(path, ours, err);
     }
     if (status == TC_OK) {
+        tc_mesh *as_made = NULL; /* not repaired: others are to see what we were given */
         snprintf(path, sizeof path, "%s.vtu", stem);
-        status = tc_mesh_write_vtu(mesh->mesh, path, err);
+        status = tc_mesh_create(&as_made, &mesh->source.arrays, err);
+        if (status == TC_OK)
+            status = tc_mesh_write_vtu(as_made, path, err);
+        tc_mesh_destroy(&as_made);
     }
     if (status == TC_OK) {
-        json_t *o = json_case(name, mesh, view, f);
+        json_t *o = json_case(name, mesh, view, f, judged.ill_posed);
         char *text = o ? json_dumps(o, JSON_INDENT(1)) : NULL;
         snprintf(path, sizeof path, "%s.json", stem);
         status = text ? tc_file_replace(path, text, strlen(text), err) : tc_fail_memory(err, path, 1, 1);
@@ -103,7 +113,7 @@ tc_status hard_export_mesh(const char *dir, size_t index, const char *filter, tc
         c.view = (index + k) % hard_view_count();
         found = !hard_view_is_large(c.view) && hard_view_make(&view, c.view, &mesh, SIZE) && is_common(&view);
     }
-    hard_case_name(what, sizeof what, name, &c);
+    hard_case_name(what, sizeof what, index, &c);
     if (status == TC_OK && found && (!filter || strstr(what, filter))) {
         status = hard_function_make(&function, c.function, &mesh, err);
         snprintf(stem, sizeof stem, "%s/%s", dir, name);

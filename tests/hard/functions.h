@@ -14,8 +14,8 @@ typedef struct hard_function {
 size_t hard_function_count(void);
 const char *hard_function_name(size_t index);
 /* Function number index over the mesh's scalars. Where cells overlap by design colours have no order in depth, so all
- * knots get one colour: what is seen then depends on no order. Errors: TC_E_ARG when one is refused that must not be, or one is taken
- * that must be refused. hard_function_close frees what there is in any case. */
+ * knots get one colour: what is seen then depends on no order. Errors: TC_E_ARG when one is refused that must not be,
+ * or one is taken that must be refused. hard_function_close frees what there is in any case. */
 tc_status hard_function_make(hard_function *out, size_t index, const hard_mesh *mesh, tc_error *err);
 void hard_function_close(hard_function *f);
 

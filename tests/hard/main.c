@@ -33,6 +33,7 @@ typedef struct session {
     const settings *s;
     const char *program;
     hard_table *table;
+    hard_mesh relative; /* the variant made last, of the mesh at hand: the next case is likely to want it, too */
     tc_error err;
 } session;
 
@@ -77,7 +78,7 @@ static bool parse(settings *s, int argc, char **argv)
         i++;
     }
     if (!s->size)
-        s->size = s->long_run ? 256 : 96;
+        s->size = s->long_run ? 192 : 96;
     if (!s->bench.judged)
         s->bench.judged = s->long_run ? 256 : 64;
     if (!s->bench.verified)
@@ -98,7 +99,7 @@ static tc_status judge(session *run, const hard_mesh *mesh, const hard_case *c, 
     const settings *s = run->s;
     hard_view view;
     hard_function function;
-    hard_mesh relative = {0};
+    hard_mesh *relative = &run->relative;
     hard_result r = {.rays = 0};
     bool variant = c->relation > 0 && c->relation < HARD_KINDS;
     if (!hard_view_make(&view, c->view, mesh, s->size) || !hard_relation_fits(c->relation, mesh) ||
@@ -111,14 +112,16 @@ static tc_status judge(session *run, const hard_mesh *mesh, const hard_case *c, 
         hard_table_refuse(run->table);
         return TC_OK;
     }
-    if (variant)
-        status = hard_mesh_vary(&relative, mesh, (hard_kind)c->relation, &run->err);
-    if (status == TC_OK && variant && !relative.mesh && c->relation == HARD_OTHER_GAPS) {
+    if (variant && (int)relative->kind != c->relation) {
+        hard_mesh_close(relative);
+        status = hard_mesh_vary(relative, mesh, (hard_kind)c->relation, &run->err);
+    }
+    if (status == TC_OK && variant && !relative->mesh && c->relation == HARD_OTHER_GAPS) {
         /* there is but one way */
-    } else if (status == TC_OK && variant && !relative.mesh) {
-        hard_fail(&r, "the variant is refused: %s", relative.refused.text);
+    } else if (status == TC_OK && variant && !relative->mesh) {
+        hard_fail(&r, "the variant is refused: %s", relative->refused.text);
     } else if (status == TC_OK && c->relation) {
-        hard_judge_relation(&r, &s->bench, c->relation, mesh, variant ? &relative : NULL, &view, &function);
+        hard_judge_relation(&r, &s->bench, c->relation, mesh, variant ? relative : NULL, &view, &function);
     } else if (status == TC_OK) {
         hard_judge_case(NULL, &r, &s->bench, s->bench.renderer, mesh, &view, &function, c->integrator);
     }
@@ -126,7 +129,6 @@ static tc_status judge(session *run, const hard_mesh *mesh, const hard_case *c, 
         report(run, &r, name);
         status = hard_table_add(run->table, &r, &run->err);
     }
-    hard_mesh_close(&relative);
     hard_function_close(&function);
     return status;
 }
@@ -145,7 +147,7 @@ static tc_status judge_mesh(session *run, size_t index)
     char what[256];
     size_t n = hard_catalogue_cases(c, index, s->long_run, s->bench.gpu || s->list), left = 0;
     for (size_t i = 0; i < n; i++) {
-        hard_case_name(what, sizeof what, name, &c[i]);
+        hard_case_name(what, sizeof what, index, &c[i]);
         left += wanted(s, what);
         if (s->list && wanted(s, what))
             printf("%s\n", what);
@@ -171,10 +173,11 @@ static tc_status judge_mesh(session *run, size_t index)
     if (mesh.judge)
         hard_judge_blind(mesh.judge, s->blind);
     for (size_t i = 0; i < n && status == TC_OK && mesh.mesh; i++) {
-        hard_case_name(what, sizeof what, name, &c[i]);
+        hard_case_name(what, sizeof what, index, &c[i]);
         if (wanted(s, what))
             status = judge(run, &mesh, &c[i], what);
     }
+    hard_mesh_close(&run->relative);
     hard_mesh_close(&mesh);
     return status;
 }
@@ -229,7 +232,7 @@ int main(int argc, char **argv)
         if (strcmp(s.context, "egl") == 0 && backend_open(&s.bench.other, "osmesa") != 0)
             s.bench.other = NULL;
     }
-    for (size_t i = 0; i < hard_catalogue_meshes() && status == TC_OK; i++)
+    for (size_t i = 0; i < hard_catalogue_meshes(s.long_run) && status == TC_OK; i++)
         status = s.export ? hard_export_mesh(s.export, i, s.filter, s.bench.renderer, &run.err) : judge_mesh(&run, i);
     bool good = status == TC_OK && (s.list || s.export || summarise(&run));
     if (status == TC_OK && s.table)

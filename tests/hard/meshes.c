@@ -120,6 +120,7 @@ void hard_mesh_close(hard_mesh *m)
     tc_reference_destroy(&m->reference);
     tc_mesh_destroy(&m->mesh);
     variant_finish(&m->source);
+    m->kind = HARD_PLAIN;
 }
 
 tc_camera hard_mesh_camera(const hard_mesh *m, const tc_camera *base)
