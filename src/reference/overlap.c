@@ -5,10 +5,13 @@
  * order of their first entries. It is what a caster sees that walks from cell to cell and enters again where it left
  * the mesh (tetcast's peeling), but it is found here from the vertex ids of the faces that the ray passes, ray by ray.
  * A face joins two cells when no third one on the ray has it and the ray leaves one where it enters the other; faces of
- * three cells and of two cells on one side join nothing. */
+ * three cells and of two cells on one side join nothing. Where a ray that runs along an edge or in a face's plane
+ * passes a cell without length, depths do not tell which of its two faces it enters by: the sign of the cell's volume
+ * does. */
 #include "reference/trace.h"
 
 #include "core/memory.h"
+#include "mesh/predicate.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -59,20 +62,54 @@ static int tet_compare(const void *a, const void *b)
     return p->tet < q->tet ? -1 : p->tet > q->tet;
 }
 
-static void name_pass(pass *out, const tc_reference *reference, const tc_hit *hit, size_t i, int end)
+/* Makes `in` the face by which the ray enters the cell, and finds whether there is such a face. The corners of the face
+ * opposite corner k run counter-clockwise around the ray, and corner k lies beyond it, or neither: entry. */
+static void direct(tc_hit *hit, const int32_t *id, const double *vertex)
+{
+    int sign = tc_orient3d(vertex + 3 * (size_t)id[0], vertex + 3 * (size_t)id[1], vertex + 3 * (size_t)id[2],
+                           vertex + 3 * (size_t)id[3]);
+    hit->flat = sign == 0;
+    bool beyond = hit->in % 2 ? sign > 0 : sign < 0; /* the parity of (the face's corners, k) */
+    if (sign != 0 && hit->left != beyond) {
+        uint8_t in = hit->in;
+        hit->in = hit->out, hit->out = in;
+    }
+}
+
+/* Both ends of hit number i; the hit gets its direction. */
+static void name_passes(pass *out, const tc_reference *reference, tc_hit *hit, size_t i)
 {
     const int32_t *id = reference->mesh->tet + 4 * (size_t)hit[i].tet;
-    int dropped = end ? hit[i].out : hit[i].in, n = 0;
     int32_t sorted[4] = {id[0], id[1], id[2], id[3]};
     for (int k = 1; k < 4; k++)
         for (int j = k; j > 0 && sorted[j] < sorted[j - 1]; j--) {
             int32_t t = sorted[j];
             sorted[j] = sorted[j - 1], sorted[j - 1] = t;
         }
-    for (int k = 0; k < 4; k++)
-        if (k != dropped)
-            out->id[n++] = sorted[k];
-    out->end = (uint32_t)(2 * i) + (uint32_t)end;
+    direct(&hit[i], sorted, reference->mesh->vertex);
+    for (int end = 0; end < 2; end++) {
+        int dropped = end ? hit[i].out : hit[i].in, n = 0;
+        for (int k = 0; k < 4; k++)
+            if (k != dropped)
+                out[end].id[n++] = sorted[k];
+        out[end].end = (uint32_t)(2 * i) + (uint32_t)end;
+    }
+}
+
+/* Cells of no volume fit both ways; what they join must not turn the ray back: cut before them. */
+static void cut_where_it_turns(uint32_t *link, const tc_hit *hit, size_t n)
+{
+    for (uint32_t end = 0; end < 2 * n; end++) {
+        if (hit[end / 2].flat || link[end] == UINT32_MAX || !hit[link[end] / 2].flat)
+            continue;
+        uint32_t at = link[end];
+        while (at != UINT32_MAX && hit[at / 2].flat)
+            at = link[at ^ 1u];
+        if (at != UINT32_MAX && at % 2 == end % 2) {
+            link[link[end]] = UINT32_MAX;
+            link[end] = UINT32_MAX;
+        }
+    }
 }
 
 /* link [2 n]: the end of another cell that each end of a cell is joined to; UINT32_MAX: none. */
@@ -87,11 +124,11 @@ static void join(uint32_t *link, pass *p, const tc_hit *hit, size_t n)
             continue;
         uint32_t a = p[i].end, b = p[i + 1].end;
         const tc_hit *g = &hit[a / 2], *h = &hit[b / 2];
-        /* a cell of no length has no direction: it fits both ways */
-        bool across = a % 2 != b % 2 || g->t0 == g->t1 || h->t0 == h->t1;
+        bool across = a % 2 != b % 2 || g->flat || h->flat;
         if (a / 2 != b / 2 && across)
             link[a] = b, link[b] = a;
     }
+    cut_where_it_turns(link, hit, n);
 }
 
 /* A number in [-1, 1] for a cell: how far, and to which side, the judge moves a run that begins in it. */
@@ -108,13 +145,16 @@ static double end_depth(const tc_hit *hit, uint32_t end)
     return end % 2 ? hit[end / 2].t1 : hit[end / 2].t0;
 }
 
-/* The end at which one gets out of the run by walking from end `start`. */
-static uint32_t far_end(const uint32_t *link, uint32_t start)
+/* Does one walk with the ray from the open end `start`? Of a run that is flat throughout, one end says yes. */
+static bool is_entry(const uint32_t *link, const tc_hit *hit, uint32_t start)
 {
-    uint32_t at = start ^ 1u;
-    while (link[at] != UINT32_MAX)
-        at = link[at] ^ 1u;
-    return at;
+    for (uint32_t at = start;;) {
+        if (!hit[at / 2].flat)
+            return at % 2 == 0;
+        if (link[at ^ 1u] == UINT32_MAX)
+            return start <= (at ^ 1u);
+        at = link[at ^ 1u];
+    }
 }
 
 bool tc_hits_order(tc_hit *hit, size_t n, const tc_reference *reference, double unsure)
@@ -127,20 +167,14 @@ bool tc_hits_order(tc_hit *hit, size_t n, const tc_reference *reference, double 
     tc_hit *ordered = tc_alloc(n, sizeof *ordered);
     if (!p || !link || !r || !ordered || n > INT32_MAX)
         goto done;
-    for (size_t i = 0; i < n; i++) {
-        name_pass(&p[2 * i], reference, hit, i, 0);
-        name_pass(&p[2 * i + 1], reference, hit, i, 1);
-    }
+    for (size_t i = 0; i < n; i++)
+        name_passes(&p[2 * i], reference, hit, i);
     join(link, p, hit, n);
     for (uint32_t end = 0; end < 2 * n; end++) {
-        if (link[end] != UINT32_MAX)
+        if (link[end] != UINT32_MAX || !is_entry(link, hit, end))
             continue;
-        uint32_t other = far_end(link, end);
-        double t0 = end_depth(hit, end), t1 = end_depth(hit, other);
-        if (t0 > t1 || (t0 == t1 && end > other))
-            continue; /* its far end is its entry */
         uint32_t tet = hit[end / 2].tet;
-        r[n_run++] = (run){t0 + unsure * sway(tet), tet, end};
+        r[n_run++] = (run){end_depth(hit, end) + unsure * sway(tet), tet, end};
     }
     qsort(r, n_run, sizeof *r, run_compare);
     for (size_t i = 0, j; i < n_run;

@@ -170,7 +170,8 @@ static bool clip(tc_hit *hit, double *worst, const tc_reference *reference, cons
         doubt = fmax(doubt, pass_face(&t[n], &s[n], p, z, value, 1, 2, 3, c12, c23, c13)), opposite[n++] = 0;
     *worst = fmax(*worst, doubt);
     int first = t[0] <= t[1] ? 0 : 1;
-    *hit = (tc_hit){t[first], t[1 - first], s[first], s[1 - first], tet, opposite[first], opposite[1 - first]};
+    *hit = (tc_hit){t[first], t[1 - first], s[first], s[1 - first], tet, opposite[first], opposite[1 - first], 0, 0};
+    hit->left = (hit->in >= 2 ? s01 : hit->in == 1 ? s02 : s12) > 0;
     for (int i = 0; i < 4; i++)
         if (!isfinite(value[i]))
             hit->s0 = hit->s1 = NAN; /* a value that is not known: see reference.h */
@@ -314,7 +315,8 @@ static bool collect_overlapping(size_t *n, tc_scratch *scratch, const tc_referen
     all.whole = true;
     all.t_min = -INFINITY; /* runs begin where the ray enters them, seen or not */
     size_t m;
-    if (!collect_surely(&m, scratch, reference, &all, shift) || !tc_hits_order(scratch->hit, m, reference, line->unsure))
+    if (!collect_surely(&m, scratch, reference, &all, shift) ||
+        !tc_hits_order(scratch->hit, m, reference, line->unsure))
         return false;
     *n = 0;
     for (size_t i = 0; i < m; i++) {

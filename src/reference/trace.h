@@ -13,6 +13,8 @@ typedef struct tc_hit {
     double t0, t1, s0, s1;
     uint32_t tet;
     uint8_t in, out; /* the faces at t0 and t1, by the rank of the corner opposite among the tet's ids */
+    bool left;       /* face `in`, its corners by rank, runs counter-clockwise in the plane of u and v */
+    bool flat;       /* for overlap.c: the cell has no volume */
 } tc_hit;
 
 typedef struct tc_scratch {

@@ -168,6 +168,89 @@ static void a_cell_of_no_length_breaks_a_run(void **state)
     mesh_free(&m);
 }
 
+/* A cube cut in two ways, with common vertices outside and own ones within: cells on one side of common faces. Rays run
+ * through vertices, along edges and in the planes of faces of both. Both cuts are seen, every cell once; near edges of
+ * the cube they take turns, for faces there belong to four cells. */
+static void coincident_grids_are_both_seen_along_edges_and_diagonals(void **state)
+{
+    (void)state;
+    enum { n = 4, side = n + 1, n_tet = 6 * n * n * n };
+    uint64_t random = 5;
+    struct tc_mesh cube = kuhn_cube(n), m = mesh_alloc(2 * n_tet, 2 * n_tet);
+    m.association = TC_CELL_DATA;
+    int32_t own = (int32_t)cube.n_vertex, mirrored[side * side * side];
+    for (int v = 0; v < (int)cube.n_vertex; v++) {
+        int at[3] = {v % side, v / side % side, v / side / side};
+        bool outside = false;
+        for (int a = 0; a < 3; a++)
+            outside = outside || at[a] == 0 || at[a] == n;
+        int far = v - at[0] + (n - at[0]); /* the vertex at 1 - x */
+        mirrored[v] = outside ? far : own;
+        for (int a = 0; a < 3; a++) {
+            double place = (double)at[a] / n, jitter = outside ? 0 : 0.15 / n;
+            m.vertex[3 * v + a] = place + jitter * uniform(&random, -1, 1);
+            if (!outside)
+                m.vertex[3 * own + a] = (a == 0 ? 1 - place : place) + jitter * uniform(&random, -1, 1);
+        }
+        own += !outside;
+    }
+    for (int i = 0; i < 4 * n_tet; i++) {
+        m.tet[i] = cube.tet[i];
+        m.tet[4 * n_tet + i] = mirrored[cube.tet[i]];
+    }
+    for (int i = 0; i < n_tet; i++)
+        m.scalar[n_tet + i] = 1;
+    m.n_vertex = (size_t)own;
+    tc_reference *r = reference_of(&m);
+    double alpha = -expm1(-ATTENUATION[0] - ATTENUATION[1]);
+    for (int axis = 0; axis < 6; axis++)
+        for (int j = 1; j < 32; j++)
+            for (int i = 1; i < 32; i++) {
+                double o[3] = {i / 32.0, i / 32.0, i / 32.0}, d[3] = {0, 0, 0};
+                o[(axis + 1) % 3] = j / 32.0;
+                o[axis % 3] = axis < 3 ? -1 : 2;
+                d[axis % 3] = axis < 3 ? 1 : -1;
+                tc_reference_ray ray = trace(r, &colors, o, d, 0);
+                NEAR(ray.length, 2, 1e-9);
+                NEAR(ray.rgba[3], alpha, 1e-9);
+                NEAR(ray.rgba[0] + ray.rgba[1], alpha, 1e-9);
+            }
+    tc_reference_destroy(&r);
+    mesh_free(&cube);
+    mesh_free(&m);
+}
+
+/* A flat cell between two cells that lie on one side of it joins them neither way: one would be walked backwards. */
+static void a_flat_cell_does_not_turn_the_ray_back(void **state)
+{
+    (void)state;
+    struct tc_mesh m = mesh_alloc(20, 20);
+    static const double x[][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}, {0, 0, 0.5}, {0, 0, 2}};
+    memcpy(m.vertex, x, sizeof x);
+    m.n_vertex = sizeof x / sizeof *x;
+    /* a flat tet; on the two triangles of its one side a high tent, on those of its other side a low one */
+    static const int32_t tet[][4] = {{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 2, 3, 4}, {0, 1, 3, 5}, {1, 2, 3, 5}};
+    static const double value[] = {2, 0, 0, 1, 1};
+    memcpy(m.tet, tet, sizeof tet);
+    memcpy(m.scalar, value, sizeof value);
+    m.n_tet = sizeof tet / sizeof *tet;
+    m.association = TC_CELL_DATA;
+    tc_reference *r = reference_of(&m);
+    for (int up = 0; up < 2; up++)
+        for (int i = 0; i < 50; i++) {
+            double px = 0.2 * sin(i + 0.5), py = 0.2 * cos(2.0 * i), reach = fmax(fabs(px), fabs(py));
+            const double o[3] = {px, py, up ? -5 : 5}, d[3] = {0, 0, up ? 1 : -1};
+            /* red from below comes first by its cells, from above by its place */
+            double red = -expm1(-ATTENUATION[0] * (1 - reach)), green = -expm1(-ATTENUATION[1] * 0.5 * (1 - reach));
+            tc_reference_ray ray = trace(r, &colors, o, d, 0);
+            NEAR(ray.length, 1.5 * (1 - reach), 1e-12);
+            NEAR(ray.rgba[0], red, 1e-12);
+            NEAR(ray.rgba[1], (1 - red) * green, 1e-12);
+        }
+    tc_reference_destroy(&r);
+    mesh_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -176,6 +259,8 @@ int main(void)
         cmocka_unit_test(cells_apart_are_seen_in_another_order_than_that_in_space),
         cmocka_unit_test(a_face_of_three_cells_joins_two_of_them),
         cmocka_unit_test(a_cell_of_no_length_breaks_a_run),
+        cmocka_unit_test(coincident_grids_are_both_seen_along_edges_and_diagonals),
+        cmocka_unit_test(a_flat_cell_does_not_turn_the_ray_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
