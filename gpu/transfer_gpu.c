@@ -10,6 +10,7 @@
 enum { INTERVALS_LEAST = 8192, INTERVALS_MOST = 65536 }; /* powers of two: places of nodes are exact in float */
 static const double INTERVALS_A_RISE = 64;               /* over which the function may go from none to all */
 static const double UNSPLIT_ERROR = 1e-3;                /* running integrals are taken where a picture errs by less, */
+static const double UNSPLIT_DEPTH = 100;                 /* no edge is optically deeper, */
 static const double UNSPLIT_SHARE_WILD = 0.04;
 static const double UNSPLIT_SHARE = 0.005;    /* as needs_pieces reckons */
 static const double NEAR_LEAST = 1.0 / 16384; /* smallest difference of x that cumulatives resolve */
@@ -57,6 +58,17 @@ static int choose_nodes(const tc_transfer *tf, const double span[2])
     return n + 1;
 }
 
+/* The optical depth of the longest edge at the function's largest extinction: running integrals round to 1e-7 of it. */
+static double deepest(const tc_transfer_gpu_request *request)
+{
+    double most = 0, edge = 0;
+    for (size_t i = 0; i < request->transfer->n; i++)
+        most = fmax(most, request->transfer->knot[i].a);
+    for (int b = 0; b < TC_PACK_BINS; b++)
+        edge = fmax(edge, request->extent->edge[b]);
+    return most * edge * request->length_unit;
+}
+
 /* Might a segment left whole err by more than UNSPLIT_ERROR? Its colour is taken to drift linearly in optical depth t
  * (integrate_integral.glsl). Over 12 pairs of mesh and function the largest picture error, against the reference, was
  * at the most 0.0046 t min(1, t) times the change of colour, mostly a tenth of it. Where the colour comes and goes
@@ -65,6 +77,8 @@ static bool needs_pieces(const tc_transfer_gpu_request *request)
 {
     const tc_transfer *tf = request->transfer;
     double range = request->scalar[1] - request->scalar[0];
+    if (deepest(request) > UNSPLIT_DEPTH)
+        return true;
     for (int b = 0; b < TC_PACK_BINS; b++) {
         double lo = request->scalar[0] + range * b / TC_PACK_BINS,
                hi = request->scalar[0] + range * (b + 1) / TC_PACK_BINS;
@@ -190,8 +204,8 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
     } else {
         wanted.size[0] = choose_nodes(request->transfer, wanted.span);
         /* Data of one value may lie on a step, where nodes hold the mean of both sides. */
-        wanted.pieces = wanted.size[0] > INTERVALS_MOST || !(request->scalar[1] > request->scalar[0]) ||
-                        needs_pieces(request);
+        wanted.pieces =
+            wanted.size[0] > INTERVALS_MOST || !(request->scalar[1] > request->scalar[0]) || needs_pieces(request);
     }
     bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
                 t->pieces == wanted.pieces && (t->pieces || memcmp(t->size, wanted.size, sizeof t->size) == 0) &&
