@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-double picture_color_excess(const tc_image *image, const tc_transfer *tf)
+double picture_color_excess(const tc_image *image, const tc_transfer *tf, const double *nan_color)
 {
     size_t n, pixels = (size_t)image->width * (size_t)image->height;
     const tc_knot *knot = tc_transfer_knots(tf, &n);
@@ -14,13 +14,16 @@ double picture_color_excess(const tc_image *image, const tc_transfer *tf)
         for (int c = 0; c < 3; c++)
             most[c] = fmax(most[c], color[c]);
     }
+    for (int c = 0; c < 3 && nan_color; c++)
+        most[c] = fmax(most[c], nan_color[c]);
     for (size_t i = 0; i < pixels; i++)
         for (size_t c = 0; c < 3; c++)
             excess = fmax(excess, image->rgba[4 * i + c] - image->rgba[4 * i + 3] * most[c]);
     return excess;
 }
 
-bool picture_is_sane(char *out, size_t capacity, const tc_image *image, const tc_transfer *tf, double excess)
+bool picture_is_sane(char *out, size_t capacity, const tc_image *image, const tc_transfer *tf, const double *nan_color,
+                     double excess)
 {
     size_t pixels = (size_t)image->width * (size_t)image->height;
     for (size_t i = 0; i < pixels; i++) {
@@ -31,7 +34,7 @@ bool picture_is_sane(char *out, size_t capacity, const tc_image *image, const tc
                  (int)(i / (size_t)image->width), (double)p[0], (double)p[1], (double)p[2], (double)p[3]);
         return false;
     }
-    double found = picture_color_excess(image, tf);
+    double found = picture_color_excess(image, tf, nan_color);
     if (!(found <= excess))
         snprintf(out, capacity, "a colour exceeds alpha times the function's largest by %g", found);
     return found <= excess;

@@ -3,18 +3,14 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "core/vec.h"
 #include "tests/common/sane.h"
+#include "tests/common/shift.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* What moves a ray as much as rounding to float may: 2^-22 of the diagonal. */
-static const double SHIFT = 0x1p-22;
-static const int side[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
 
 void hard_fail(hard_result *r, const char *format, ...)
 {
@@ -47,18 +43,6 @@ static ray ray_of(const tc_rays *rays, size_t pixel)
     tc_rays_pixel(r.origin, r.direction, rays, r.X, r.Y);
     tc_rays_range(r.range, rays, r.X, r.Y);
     return r;
-}
-
-/* Moves the ray's origin to side k, by SHIFT of the diagonal. */
-static void shift(double *moved, const ray *r, double diagonal, int k)
-{
-    double axis[3] = {0, 0, 0}, u[3], v[3];
-    axis[fabs(r->direction[0]) < 0.6 ? 0 : 1] = 1;
-    tc_vec_cross(u, r->direction, axis);
-    tc_vec_normalize(u);
-    tc_vec_cross(v, u, r->direction);
-    tc_vec_mul_add(moved, r->origin, side[k][0] * SHIFT * diagonal, u);
-    tc_vec_mul_add(moved, moved, side[k][1] * SHIFT * diagonal, v);
 }
 
 typedef struct probe {
@@ -102,9 +86,9 @@ static void judge_ray(const force *f, probe *p, int worker)
     p->wrong = f->exact && p->walk.doubt == 0 && (p->walk.cells != audit->cells || p->walk.hash != audit->hash);
     p->all = fabs(audit->length - all) / m->diagonal;
     p->real = fabs(audit->length_real - real) / m->diagonal;
-    for (int k = 0; k < 8 && fmax(p->all, p->real) > HARD_LENGTH && !p->ill; k++) {
+    for (int k = 0; k < RAY_SIDES && fmax(p->all, p->real) > HARD_LENGTH && !p->ill; k++) {
         double moved[3], all_there, real_there;
-        shift(moved, &r, m->diagonal, k);
+        ray_shift(moved, r.origin, r.direction, RAY_SHIFT * m->diagonal, k);
         p->failed = true_lengths(&all_there, &real_there, m, moved, &r, worker) != TC_OK;
         p->ill = fmax(fabs(all_there - all), fabs(real_there - real)) > 0.5 * HARD_LENGTH * m->diagonal;
     }
@@ -194,9 +178,9 @@ static void judge_by_chord(hard_result *r, const hard_mesh *mesh, const hard_pic
         double alpha = -expm1(-per_length * mesh->generator->chord(at.origin, at.direction, mesh->n_cells));
         double error = fabs(picture->image->rgba[4 * i + 3] - alpha);
         bool ill = false;
-        for (int k = 0; k < 8 && error > bound && !ill; k++) {
+        for (int k = 0; k < RAY_SIDES && error > bound && !ill; k++) {
             double moved[3];
-            shift(moved, &at, mesh->diagonal, k);
+            ray_shift(moved, at.origin, at.direction, RAY_SHIFT * mesh->diagonal, k);
             double there = -expm1(-per_length * mesh->generator->chord(moved, at.direction, mesh->n_cells));
             ill = fabs(there - alpha) > 0.5 * bound;
         }
@@ -297,7 +281,7 @@ void hard_judge_case(hard_picture *out, hard_result *r, const hard_bench *bench,
     bool table = integrator == TC_INTEGRATOR_TABLE;
     if (make_picture(p, r, bench, renderer, mesh, view, function, integrator)) {
         char what[160];
-        if (!picture_is_sane(what, sizeof what, p->image, function->tf, HARD_PICTURE))
+        if (!picture_is_sane(what, sizeof what, p->image, function->tf, NULL, HARD_PICTURE))
             hard_fail(r, "%s", what);
         if (bench->gpu)
             judge_by_force(r, bench, mesh, p);

@@ -179,6 +179,11 @@ static tc_status judge_mesh(session *run, size_t index)
     }
     hard_mesh_close(&run->relative);
     hard_mesh_close(&mesh);
+    if (s->long_run) { /* minutes: what it is at */
+        const hard_row *t = hard_table_total(run->table);
+        printf("%s: %s; %lld rays so far, %zu cases failed\n", s->context, name, (long long)t->sum.rays, t->failed);
+        fflush(stdout);
+    }
     return status;
 }
 

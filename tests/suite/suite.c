@@ -2,8 +2,9 @@
 #include "suite.h"
 
 #include "core/vec.h"
+#include "tests/common/backend.h"
+#include "tests/common/sane.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,35 +15,18 @@ static struct {
     tc_renderer *renderer;
 } suite;
 
-static bool installed(const char *library)
-{
-    return dlopen(library, RTLD_NOW | RTLD_LOCAL) != NULL; /* stays open: Mesa does not survive a dlclose */
-}
-
 bool suite_begin(int argc, char **argv)
 {
-    static const char *const names[] = {"osmesa", "egl", "reference"};
     suite.name = argc == 2 ? argv[1] : "";
-    bool known = false;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        known = known || strcmp(suite.name, names[i]) == 0;
-    if (!known) {
+    if (!backend_known(suite.name)) {
         fprintf(stderr, "usage: %s osmesa|egl|reference\n", argv[0]);
         exit(2);
     }
     suite.gpu = strcmp(suite.name, "reference") != 0;
-    const tc_renderer_options options = {.gl = suite.gpu ? suite.name : NULL,
-                                         .driver = suite.gpu ? "pingpong" : "reference"};
-    tc_error err = {0};
-    tc_status status = tc_renderer_create(&suite.renderer, &options, NULL, &err);
-    if (status == TC_OK)
-        return true;
-    printf("%s: %s\n", suite.name, err.text);
-    /* EGL may be installed and have no device; an OSMesa that is there must work. */
-    if (status != TC_E_GL || (strcmp(suite.name, "osmesa") == 0 && installed("libOSMesa.so.8")))
-        exit(1);
-    printf("%s: skipped\n", suite.name);
-    return false;
+    int code = backend_open(&suite.renderer, suite.name);
+    if (code != 0 && code != BACKEND_SKIPPED)
+        exit(code);
+    return code == 0;
 }
 
 void suite_end(void)
@@ -186,44 +170,13 @@ void suite_audit(tc_audit_ray *out)
         fail_msg("%s", err.text);
 }
 
-/* nan_color: of missing values, may be NULL. */
-static double color_excess(const tc_image *image, const tc_transfer *tf, const double *nan_color)
-{
-    size_t n, pixels = (size_t)image->width * (size_t)image->height;
-    const tc_knot *knot = tc_transfer_knots(tf, &n);
-    double most[3] = {0, 0, 0}, excess = 0;
-    for (int c = 0; c < 3 && nan_color; c++)
-        most[c] = nan_color[c];
-    for (size_t i = 0; i < n; i++) {
-        const double color[3] = {knot[i].r, knot[i].g, knot[i].b};
-        for (int c = 0; c < 3; c++)
-            most[c] = fmax(most[c], color[c]);
-    }
-    for (size_t i = 0; i < pixels; i++)
-        for (size_t c = 0; c < 3; c++)
-            excess = fmax(excess, image->rgba[4 * i + c] - image->rgba[4 * i + 3] * most[c]);
-    return excess;
-}
-
-double suite_color_excess(const tc_image *image, const tc_transfer *tf)
-{
-    return color_excess(image, tf, NULL);
-}
-
 /* What must hold of every picture. A table's colours and opacities are rounded apart from each other. */
 static void expect_sane(const tc_image *image, const tc_transfer *tf, const tc_render_options *options)
 {
-    size_t pixels = (size_t)image->width * (size_t)image->height;
-    for (size_t i = 0; i < pixels; i++) {
-        const float *p = image->rgba + 4 * i;
-        if (!(p[0] >= 0 && p[1] >= 0 && p[2] >= 0 && p[3] >= 0 && p[3] <= 1 && isfinite(p[0] + p[1] + p[2])))
-            fail_msg("pixel %d, %d is %g %g %g, alpha %g", (int)(i % (size_t)image->width),
-                     (int)(i / (size_t)image->width), (double)p[0], (double)p[1], (double)p[2], (double)p[3]);
-    }
-    double excess = color_excess(image, tf, options->has_nan_color ? options->nan_color : NULL),
-           bound = options->table_format == TC_TABLE_8 ? 0.08 : SUITE_HALF_STEP;
-    if (!(excess <= bound))
-        fail_msg("a colour exceeds alpha times the function's largest by %g", excess);
+    char what[160];
+    if (!picture_is_sane(what, sizeof what, image, tf, options->has_nan_color ? options->nan_color : NULL,
+                         options->table_format == TC_TABLE_8 ? 0.08 : SUITE_HALF_STEP))
+        fail_msg("%s", what);
 }
 
 tc_image *suite_render(tc_render_stats *stats, const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,

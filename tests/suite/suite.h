@@ -56,8 +56,6 @@ tc_image *suite_render(tc_render_stats *stats, const tc_mesh *mesh, const tc_tra
 /* The audit of the last picture, out [height][width]; the test ends where there is none. */
 void suite_audit(tc_audit_ray *out);
 tc_status suite_try_audit(tc_audit_ray *out, tc_error *err);
-/* By how much a colour exceeds alpha times the function's largest in that channel; 0 where none does. */
-double suite_color_excess(const tc_image *image, const tc_transfer *tf);
 /* The largest difference of a channel. */
 double suite_difference(const tc_image *a, const tc_image *b);
 /* How far the picture is from the double-precision reference in n pixels, and that this is at most `bound` apart from

@@ -3,8 +3,7 @@
 #include "suite.h"
 
 #include "datasets_synthetic/synth.h"
-
-#include "core/vec.h"
+#include "tests/common/shift.h"
 
 #include <stdlib.h>
 
@@ -43,14 +42,10 @@ static double alpha_of(const tc_synth_generator *g, size_t n_cells, const double
 static bool is_ill_posed(const tc_synth_generator *g, const shape *s, const double *o, const double *d, double diagonal,
                          double bound)
 {
-    double alpha = alpha_of(g, s->n_cells, o, d, diagonal), axis[3] = {0, 0, 0}, u[3], v[3];
-    axis[fabs(d[0]) < 0.6 ? 0 : 1] = 1;
-    tc_vec_cross(u, d, axis);
-    tc_vec_normalize(u);
-    tc_vec_cross(v, d, u);
-    for (int k = 0; k < 4; k++) {
+    double alpha = alpha_of(g, s->n_cells, o, d, diagonal);
+    for (int k = 0; k < RAY_SIDES; k++) {
         double moved[3];
-        tc_vec_mul_add(moved, o, (k % 2 ? -1 : 1) * diagonal / 4194304, k < 2 ? u : v);
+        ray_shift(moved, o, d, RAY_SHIFT * diagonal, k);
         if (fabs(alpha_of(g, s->n_cells, moved, d, diagonal) - alpha) > bound)
             return true;
     }

@@ -3,109 +3,30 @@
 #include "suite.h"
 
 #include "datasets_synthetic/synth.h"
+#include "tests/common/variants.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { SIZE = 128 };
 
-/* A soup with values at its vertices. */
-typedef struct field {
-    tc_synth_soup soup;
-    double *scalar;
-} field;
-
-static field build_field(const char *name, size_t n_cells)
+/* A generator's soup with its field. */
+static mesh_variant build_plain(const char *name, size_t n_cells)
 {
     const tc_synth_generator *g = tc_synth_find(name);
-    field f = {0};
-    assert_int_equal(g->build(&f.soup, n_cells, 1, NULL), TC_OK);
-    f.scalar = malloc((f.soup.n_vertex + f.soup.n_tet) * sizeof *f.scalar); /* room for refine */
-    assert_non_null(f.scalar);
-    for (size_t i = 0; i < f.soup.n_vertex; i++)
-        f.scalar[i] = g->field(f.soup.vertex + 3 * i);
-    return f;
-}
-
-static void free_field(field *f)
-{
-    free(f->scalar);
-    tc_synth_soup_finish(&f->soup);
-}
-
-static tc_mesh *mesh_of(const field *f, tc_reentry reentry)
-{
-    const tc_mesh_arrays arrays = {f->soup.n_vertex, f->soup.vertex, f->soup.n_tet, f->soup.tet,
-                                   f->scalar,        TC_POINT_DATA,  "field"};
-    return suite_mesh(&arrays, reentry);
-}
-
-/* Every tet becomes four around its centre, where the value is the mean: the same piecewise linear field. */
-static field refine(const field *coarse)
-{
-    const tc_synth_soup *c = &coarse->soup;
-    field f = {.soup = {.n_vertex = c->n_vertex + c->n_tet, .n_tet = 4 * c->n_tet}};
-    f.soup.vertex = malloc(f.soup.n_vertex * 3 * sizeof(double));
-    f.soup.tet = malloc(f.soup.n_tet * 4 * sizeof(int32_t));
-    f.scalar = malloc(f.soup.n_vertex * sizeof(double));
-    assert_true(f.soup.vertex && f.soup.tet && f.scalar);
-    memcpy(f.soup.vertex, c->vertex, c->n_vertex * 3 * sizeof(double));
-    memcpy(f.scalar, coarse->scalar, c->n_vertex * sizeof(double));
-    for (size_t i = 0; i < c->n_tet; i++) {
-        const int32_t *tet = c->tet + 4 * i;
-        size_t center = c->n_vertex + i;
-        double *p = f.soup.vertex + 3 * center;
-        p[0] = p[1] = p[2] = f.scalar[center] = 0;
-        for (int k = 0; k < 4; k++) {
-            for (int a = 0; a < 3; a++)
-                p[a] += 0.25 * c->vertex[3 * tet[k] + a];
-            f.scalar[center] += 0.25 * coarse->scalar[tet[k]];
-            int32_t *part = f.soup.tet + 16 * i + 4 * k;
-            memcpy(part, tet, 4 * sizeof *part);
-            part[k] = (int32_t)center;
-        }
-    }
-    return f;
-}
-
-static void shuffle(int32_t *order, size_t n, uint64_t seed)
-{
-    for (size_t i = 0; i < n; i++)
-        order[i] = (int32_t)i;
-    for (size_t i = n; i > 1; i--) {
-        seed = seed * 6364136223846793005u + 1442695040888963407u;
-        size_t j = (size_t)(seed >> 33) % i;
-        int32_t t = order[i - 1];
-        order[i - 1] = order[j];
-        order[j] = t;
-    }
-}
-
-/* Vertices, cells and the vertices within a cell in another order; half of the cells are turned inside out. */
-static field permute(const field *from)
-{
-    const tc_synth_soup *s = &from->soup;
-    field f = {.soup = {.n_vertex = s->n_vertex, .n_tet = s->n_tet}};
-    f.soup.vertex = malloc(s->n_vertex * 3 * sizeof(double));
-    f.soup.tet = malloc(s->n_tet * 4 * sizeof(int32_t));
-    f.scalar = malloc(s->n_vertex * sizeof(double));
-    int32_t *vertex = malloc(s->n_vertex * sizeof *vertex), *tet = malloc(s->n_tet * sizeof *tet);
-    assert_true(f.soup.vertex && f.soup.tet && f.scalar && vertex && tet);
-    shuffle(vertex, s->n_vertex, 7);
-    shuffle(tet, s->n_tet, 8);
-    for (size_t i = 0; i < s->n_vertex; i++) {
-        memcpy(f.soup.vertex + 3 * vertex[i], s->vertex + 3 * i, 3 * sizeof(double));
-        f.scalar[vertex[i]] = from->scalar[i];
-    }
-    for (size_t i = 0; i < s->n_tet; i++) {
-        int32_t corner[4];
-        shuffle(corner, 4, i);
-        for (int k = 0; k < 4; k++)
-            f.soup.tet[4 * tet[i] + corner[k]] = vertex[s->tet[4 * i + (size_t)k]];
-    }
-    free(vertex);
-    free(tet);
-    return f;
+    static const double here[3] = {0, 0, 0};
+    tc_synth_soup soup = {0};
+    mesh_variant plain = {0};
+    assert_int_equal(g->build(&soup, n_cells, 1, NULL), TC_OK);
+    double *scalar = malloc(soup.n_vertex * sizeof *scalar);
+    assert_non_null(scalar);
+    for (size_t i = 0; i < soup.n_vertex; i++)
+        scalar[i] = g->field(soup.vertex + 3 * i);
+    const tc_mesh_arrays arrays = {soup.n_vertex, soup.vertex, soup.n_tet, soup.tet, scalar, TC_POINT_DATA, "field"};
+    assert_int_equal(variant_move(&plain, &arrays, NULL, 1, here, NULL), TC_OK);
+    free(scalar);
+    tc_synth_soup_finish(&soup);
+    return plain;
 }
 
 /* The picture of a mesh that is taken over, with a unit distance that does not depend on its cells. */
@@ -140,10 +61,16 @@ static void a_finer_mesh_of_a_linear_field_looks_different(void **state)
     tc_image *coarse = picture(suite_synth("kuhn", 800, TC_REENTRY_AUTO), tf, 1, 0.4, 0.7);
     expect_same("kuhn 800 and 30000", SUITE_HALF_STEP, coarse,
                 picture(suite_synth("kuhn", 30000, TC_REENTRY_AUTO), tf, 1, 0.4, 0.7));
-    field f = build_field("kuhn", 800), fine = refine(&f);
-    expect_same("kuhn refined 1:4", SUITE_HALF_STEP, coarse, picture(mesh_of(&fine, TC_REENTRY_AUTO), tf, 1, 0.4, 0.7));
-    free_field(&fine);
-    free_field(&f);
+    mesh_variant plain = build_plain("kuhn", 800), fine = {0}, finer = {0};
+    assert_int_equal(variant_refine4(&fine, &plain.arrays, NULL), TC_OK);
+    assert_int_equal(variant_refine8(&finer, &plain.arrays, NULL), TC_OK);
+    expect_same("kuhn refined 1:4", SUITE_HALF_STEP, coarse,
+                picture(suite_mesh(&fine.arrays, TC_REENTRY_AUTO), tf, 1, 0.4, 0.7));
+    expect_same("kuhn refined 1:8", SUITE_HALF_STEP, coarse,
+                picture(suite_mesh(&finer.arrays, TC_REENTRY_AUTO), tf, 1, 0.4, 0.7));
+    variant_finish(&plain);
+    variant_finish(&fine);
+    variant_finish(&finer);
     tc_image_destroy(&coarse);
     tc_transfer_destroy(&tf);
 }
@@ -154,16 +81,18 @@ static void refined_or_permuted_heat_sink_looks_different(void **state)
     tc_mesh *mesh = suite_synth("heatsink", 8000, TC_REENTRY_AUTO);
     tc_transfer *tf = suite_benchmark(mesh);
     tc_image *plain = picture(mesh, tf, 0.5, 0.4, 1);
-    field f = build_field("heatsink", 8000), fine = refine(&f), other = permute(&f);
+    mesh_variant f = build_plain("heatsink", 8000), fine = {0}, other = {0};
+    assert_int_equal(variant_refine4(&fine, &f.arrays, NULL), TC_OK);
+    assert_int_equal(variant_permute(&other, &f.arrays, 7, NULL), TC_OK);
     expect_same("heatsink refined 1:4", SUITE_HALF_STEP, plain,
-                picture(mesh_of(&fine, TC_REENTRY_AUTO), tf, 0.5, 0.4, 1));
+                picture(suite_mesh(&fine.arrays, TC_REENTRY_AUTO), tf, 0.5, 0.4, 1));
     expect_same("heatsink permuted", SUITE_HALF_STEP, plain,
-                picture(mesh_of(&other, TC_REENTRY_AUTO), tf, 0.5, 0.4, 1));
+                picture(suite_mesh(&other.arrays, TC_REENTRY_AUTO), tf, 0.5, 0.4, 1));
     expect_same("heatsink permuted and peeled", SUITE_HALF_STEP, plain,
-                picture(mesh_of(&other, TC_REENTRY_PEEL), tf, 0.5, 0.4, 1));
-    free_field(&f);
-    free_field(&fine);
-    free_field(&other);
+                picture(suite_mesh(&other.arrays, TC_REENTRY_PEEL), tf, 0.5, 0.4, 1));
+    variant_finish(&f);
+    variant_finish(&fine);
+    variant_finish(&other);
     tc_image_destroy(&plain);
     tc_transfer_destroy(&tf);
 }
@@ -280,16 +209,16 @@ static void a_renderer_keeps_something_of_the_frame_before(void **state)
 static void the_scalar_does_not_jump_at_a_flat_layer(void **state)
 {
     (void)state;
-    field f = build_field("kuhn", 10368);
+    mesh_variant f = build_plain("kuhn", 10368);
     const int n = 12; /* 6 n^3 tets */
-    assert_int_equal(f.soup.n_tet, 6 * n * n * n);
-    for (size_t i = 0; i < f.soup.n_vertex; i++) {
-        double *p = f.soup.vertex + 3 * i;
+    assert_int_equal(f.arrays.n_tet, 6 * n * n * n);
+    for (size_t i = 0; i < f.arrays.n_vertex; i++) {
+        double *p = f.vertex + 3 * i;
         int layer = (int)lround(p[2] * n);
         p[2] = (layer > n / 2 ? layer - 1 : layer) / (double)n;
         f.scalar[i] = sin(25 * p[0]) * cos(21 * p[1]);
     }
-    tc_mesh *mesh = mesh_of(&f, TC_REENTRY_CONVEXIFY);
+    tc_mesh *mesh = suite_mesh(&f.arrays, TC_REENTRY_CONVEXIFY);
     tc_mesh_report report;
     tc_mesh_get_report(&report, mesh);
     assert_true(report.zero_volume > 5 * n * n); /* those at corners repeat a vertex and go */
@@ -302,7 +231,7 @@ static void the_scalar_does_not_jump_at_a_flat_layer(void **state)
     }
     tc_transfer_destroy(&tf);
     tc_mesh_destroy(&mesh);
-    free_field(&f);
+    variant_finish(&f);
 }
 
 int main(int argc, char **argv)
