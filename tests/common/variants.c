@@ -141,20 +141,32 @@ static int by_vertices(const void *a, const void *b)
 static const int edge_corner[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 /* Gives every edge of the mesh a number: middle [6 n_tet]; *n gets their count. */
-static void number_edges(int32_t *middle, edge *e, size_t *n, const tc_mesh_arrays *from)
+static void number_edges(int32_t *middle, edge *e, size_t *n, const int32_t *sorted, size_t n_tet)
 {
-    for (size_t i = 0; i < 6 * from->n_tet; i++) {
-        const int32_t *tet = from->tet + 4 * (i / 6);
-        int32_t a = tet[edge_corner[i % 6][0]], b = tet[edge_corner[i % 6][1]];
-        e[i] = (edge){{a < b ? a : b, a < b ? b : a}, (uint32_t)i};
+    for (size_t i = 0; i < 6 * n_tet; i++) {
+        const int32_t *tet = sorted + 4 * (i / 6);
+        e[i] = (edge){{tet[edge_corner[i % 6][0]], tet[edge_corner[i % 6][1]]}, (uint32_t)i};
     }
-    qsort(e, 6 * from->n_tet, sizeof *e, by_vertices);
+    qsort(e, 6 * n_tet, sizeof *e, by_vertices);
     *n = 0;
-    for (size_t i = 0; i < 6 * from->n_tet; i++) {
+    for (size_t i = 0; i < 6 * n_tet; i++) {
         *n += i > 0 && by_vertices(&e[i - 1], &e[i]) != 0;
         middle[e[i].slot] = (int32_t)*n;
     }
-    *n += from->n_tet > 0;
+    *n += n_tet > 0;
+}
+
+/* Each tet's vertices ascending: equal tets are then divided alike. */
+static void sort_corners(int32_t *sorted, const tc_mesh_arrays *from)
+{
+    memcpy(sorted, from->tet, from->n_tet * 4 * sizeof *sorted);
+    for (size_t i = 0; i < from->n_tet; i++)
+        for (size_t k = 1; k < 4; k++)
+            for (int32_t *at = sorted + 4 * i + k; at > sorted + 4 * i && at[-1] > at[0]; at--) {
+                int32_t t = at[0];
+                at[0] = at[-1];
+                at[-1] = t;
+            }
 }
 
 tc_status variant_refine8(mesh_variant *out, const tc_mesh_arrays *from, tc_error *err)
@@ -164,11 +176,13 @@ tc_status variant_refine8(mesh_variant *out, const tc_mesh_arrays *from, tc_erro
                                        {4, 9, 5, 6}, {4, 9, 6, 8}, {4, 9, 8, 7}, {4, 9, 7, 5}};
     size_t n_edge = 0, nv = from->n_vertex;
     int32_t *middle = tc_alloc(from->n_tet, 6 * sizeof *middle);
+    int32_t *sorted = tc_alloc(from->n_tet, 4 * sizeof *sorted);
     edge *e = tc_alloc(from->n_tet, 6 * sizeof *e);
     tc_status status = TC_OK;
-    if (middle && e)
-        number_edges(middle, e, &n_edge, from);
-    else
+    if (middle && e && sorted) {
+        sort_corners(sorted, from);
+        number_edges(middle, e, &n_edge, sorted, from->n_tet);
+    } else
         status = tc_fail_memory(err, "the edges of a mesh", from->n_tet, 6 * sizeof *e);
     if (status == TC_OK)
         status = reserve(out, from, nv + n_edge, 8 * from->n_tet, err);
@@ -179,7 +193,7 @@ tc_status variant_refine8(mesh_variant *out, const tc_mesh_arrays *from, tc_erro
         add_mean(out, from, nv + (size_t)middle[e[i].slot], e[i].id, 2);
     for (size_t i = 0; i < from->n_tet; i++) {
         int32_t id[10];
-        memcpy(id, from->tet + 4 * i, 4 * sizeof *id);
+        memcpy(id, sorted + 4 * i, 4 * sizeof *id);
         for (size_t k = 0; k < 6; k++)
             id[4 + k] = (int32_t)nv + middle[6 * i + k];
         for (size_t p = 0; p < 8; p++)
@@ -188,6 +202,7 @@ tc_status variant_refine8(mesh_variant *out, const tc_mesh_arrays *from, tc_erro
     }
 done:
     free(middle);
+    free(sorted);
     free(e);
     return status;
 }
