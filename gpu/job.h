@@ -26,6 +26,7 @@ typedef struct tc_job {
     double map[2];                               /* packed scalar → x = s*map[0] + map[1] */
     double texel[3][2];                          /* table: coordinate → texture coordinate, by axis */
     double grid[2];                              /* running integrals: intervals between nodes, length of one */
+    bool float_table;
     double near;        /* running integrals: smallest difference */
     bool pieces;        /* integrate piece by piece of the function; else by running integrals over nodes */
     int n_piece;

@@ -133,6 +133,7 @@ static void bind(tc_job *job, const tc_transfer_gpu *t)
     job->grid[1] = 1 / job->grid[0];
     job->near = fmax(job->grid[1], NEAR_LEAST);
     job->pieces = t->pieces;
+    job->float_table = t->integrator == TC_INTEGRATOR_TABLE && t->format != TC_TABLE_8;
     job->n_piece = t->size[0];
 }
 
