@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/vec.h"
 #include "mesh/adjacency.h"
+#include "mesh/predicate.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -223,45 +224,123 @@ static double height(const plane *p, const double *x)
     return tc_vec_dot(d, p->normal);
 }
 
-/* A face no wider than the tolerance says nothing: its normal is noise. The fans of its neighbours reach across it. */
+/* The least of the widths of the tet (a, b, c, d) in the directions in which one of its faces, or two opposite edges,
+ * lie level: to make the four points coplanar takes moving them by no less than a quarter of it, however narrow the
+ * faces. Positive when d lies above (a, b, c). */
+static double thickness(const double *a, const double *b, const double *c, const double *d)
+{
+    const double *x[4] = {a, b, c, d};
+    double e[4][4][3], longest = 0, most = 0, n[3];
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            tc_vec_sub(e[i][j], x[j], x[i]);
+            for (int k = 0; k < 3; k++)
+                longest = fabs(e[i][j][k]) > longest ? fabs(e[i][j][k]) : longest;
+        }
+    if (longest == 0)
+        return 0;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            for (int k = 0; k < 3; k++)
+                e[i][j][k] /= longest; /* no overflow for meshes of any size */
+    static const uint8_t level[7][4] = {{0, 1, 0, 2}, {0, 1, 0, 3}, {0, 2, 0, 3}, {1, 2, 1, 3},
+                                        {0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}};
+    for (int i = 0; i < 7; i++) {
+        tc_vec_cross(n, e[level[i][0]][level[i][1]], e[level[i][2]][level[i][3]]);
+        double area = tc_vec_length(n);
+        most = area > most ? area : most;
+    }
+    tc_vec_cross(n, e[0][1], e[0][2]);
+    return most > 0 ? longest * (tc_vec_dot(n, e[0][3]) / most) : 0;
+}
+
 static bool edge_is_convex(const tc_boundary *b, const double *vertex, int64_t id, double tolerance)
 {
-    int64_t twin = b->across[id];
-    plane p = plane_of(b, vertex, id / 3), q = plane_of(b, vertex, twin / 3);
-    if (!(p.altitude > tolerance) && !(q.altitude > tolerance))
-        return isfinite(p.altitude) && isfinite(q.altitude);
-    /* the wider face tells the height best */
-    double h = p.altitude >= q.altitude ? height(&p, corner(b, vertex, next(next(twin))))
-                                        : height(&q, corner(b, vertex, next(next(id))));
-    if (!(h <= tolerance))
-        return false;
-    if (h < -tolerance || !(p.altitude > tolerance) || !(q.altitude > tolerance))
-        return true;
-    return tc_vec_dot(p.normal, q.normal) > 0; /* flat, not folded back on itself */
+    const double *p = corner(b, vertex, id), *q = corner(b, vertex, next(id)), *r = corner(b, vertex, next(next(id)));
+    const double *beyond = corner(b, vertex, next(next(b->across[id])));
+    return thickness(p, q, r, beyond) <= tolerance || tc_orient3d(p, q, r, beyond) <= 0;
 }
 
-/* Do the faces around corner `id` lie below the plane of its face? */
-static bool fan_is_convex(const tc_boundary *b, const double *vertex, int64_t id, const plane *p, double tolerance)
+/* Does x lie below the plane of a face wider than the tolerance, as far as the face can tell? Moving its corners tilts
+ * it the more the narrower it is and the farther x is. */
+static bool is_below(const double *x, const plane *p, double tolerance)
 {
-    int64_t at = id;
-    for (size_t step = 0; step <= b->n_face; step++) {
-        at = next(b->across[at]); /* the same vertex in the next face */
-        if (at == id)
-            return true;
-        if (!(height(p, corner(b, vertex, next(at))) <= tolerance))
-            return false;
+    double away[3];
+    tc_vec_sub(away, x, p->point);
+    return height(p, x) <= 4 * tolerance * (1 + tc_vec_length(away) / p->altitude);
+}
+
+/* A face no wider than the tolerance hides the angle between those around it. Do the wide faces that one comes to from
+ * edge `id` of wide face p, through narrow ones alone, lie below p? The nearest few faces, as many as a strip or a
+ * point of contact has, are looked at. */
+static bool is_convex_across_narrow(const tc_boundary *b, const double *vertex, int64_t id, const plane *p,
+                                    double tolerance)
+{
+    int64_t queue[64];
+    size_t n = 0;
+    queue[n++] = b->across[id] / 3;
+    for (size_t i = 0; i < n; i++) {
+        int64_t f = queue[i];
+        bool wide = plane_of(b, vertex, f).altitude > tolerance;
+        for (int64_t k = 3 * f; k < 3 * f + 3; k++) {
+            if (wide && !is_below(corner(b, vertex, k), p, tolerance))
+                return false;
+            int64_t g = b->across[k] / 3;
+            bool seen = wide || g == id / 3;
+            for (size_t j = 0; j < n && !seen; j++)
+                seen = queue[j] == g;
+            if (!seen && n < sizeof queue / sizeof queue[0])
+                queue[n++] = g;
+        }
     }
-    return false;
+    return true;
 }
 
-/* How many times the surface goes around the mean of its corners: the sum of its faces' solid angles there (Van
- * Oosterom and Strackee 1983) over the full one. 1 for a convex surface; 2 for one that is wound twice around itself,
- * which no edge or fan betrays. */
-static double turns_around_middle(const tc_boundary *b, const double *vertex)
+/* Dents too small to be told at one edge add up around a vertex of many faces: each face is compared with the ring's
+ * vertices 2, 4, 8 … steps ahead. ring [n]: the corners at the vertex, in order. */
+static bool ring_is_convex(const int64_t *ring, size_t n, const tc_boundary *b, const double *vertex, double tolerance)
 {
-    double middle[3] = {0, 0, 0}, sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        plane p = plane_of(b, vertex, ring[i] / 3);
+        for (size_t step = 2; step < n && p.altitude > tolerance; step *= 2)
+            if (!is_below(corner(b, vertex, next(ring[(i + step) % n])), &p, tolerance))
+                return false;
+    }
+    return true;
+}
+
+/* Out of memory it says no. */
+static bool rings_are_convex(const tc_boundary *b, const double *vertex, double tolerance)
+{
+    size_t n = 3 * b->n_face, m;
+    int64_t *ring = tc_alloc(n, sizeof *ring);
+    uint8_t *seen = tc_calloc(n, sizeof *seen);
+    bool convex = ring && seen;
+    for (size_t first = 0; first < n && convex; first++) {
+        m = 0;
+        for (int64_t id = (int64_t)first; !seen[id]; id = next(b->across[id])) { /* the same vertex in the next face */
+            seen[id] = 1;
+            ring[m++] = id;
+        }
+        convex = ring_is_convex(ring, m, b, vertex, tolerance);
+    }
+    free(ring);
+    free(seen);
+    return convex;
+}
+
+static void middle_of(double out[3], const tc_boundary *b, const double *vertex)
+{
+    out[0] = out[1] = out[2] = 0;
     for (size_t v = 0; v < b->n_vertex; v++)
-        tc_vec_mul_add(middle, middle, 1.0 / (double)b->n_vertex, vertex + 3 * (size_t)b->vertex[v]);
+        tc_vec_mul_add(out, out, 1.0 / (double)b->n_vertex, vertex + 3 * (size_t)b->vertex[v]);
+}
+
+/* How many times the surface goes around a point: the sum of its faces' solid angles there (Van Oosterom and Strackee
+ * 1983) over the full one. */
+static double turns_around(const tc_boundary *b, const double *vertex, const double middle[3])
+{
+    double sum = 0;
     for (int64_t f = 0; f < (int64_t)b->n_face; f++) {
         double p[3][3], c[3];
         for (int i = 0; i < 3; i++) {
@@ -274,24 +353,34 @@ static double turns_around_middle(const tc_boundary *b, const double *vertex)
     return sum / 6.283185307179586;
 }
 
+/* Seen from the mean of its corners every face shows its inner side, and all faces together cover the view once: then
+ * no two of them lie behind each other, and none is folded back. Where in addition no edge is reflex, the surface is
+ * convex at every point. One that is wound twice around itself covers the view twice, or shows outer sides. */
 bool tc_boundary_is_convex(const tc_boundary *b, const double *vertex, double tolerance)
 {
     if (b->n_face == 0 || b->n_odd_edge > 0 || b->n_component != 1)
         return false;
     int64_t n = (int64_t)b->n_face;
-    bool some = false;
     for (int64_t id = 0; id < 3 * n; id++)
         if (b->across[id] > id && !edge_is_convex(b, vertex, id, tolerance))
             return false;
+    double middle[3];
+    bool some = false;
+    middle_of(middle, b, vertex);
     for (int64_t f = 0; f < n; f++) {
         plane p = plane_of(b, vertex, f);
         if (!(p.altitude > tolerance))
             continue;
         some = true;
+        const double *x = corner(b, vertex, 3 * f), *y = corner(b, vertex, 3 * f + 1),
+                     *z = corner(b, vertex, 3 * f + 2);
+        if (tc_orient3d(x, y, z, middle) >= 0)
+            return false;
         for (int64_t id = 3 * f; id < 3 * f + 3; id++)
-            if (!fan_is_convex(b, vertex, id, &p, tolerance))
+            if (!(plane_of(b, vertex, b->across[id] / 3).altitude > tolerance) &&
+                !is_convex_across_narrow(b, vertex, id, &p, tolerance))
                 return false;
     }
     /* a surface thinner than the tolerance in every face is not told */
-    return some && fabs(turns_around_middle(b, vertex) - 1) < 0.01;
+    return some && fabs(turns_around(b, vertex, middle) - 1) < 0.01 && rings_are_convex(b, vertex, tolerance);
 }

@@ -19,9 +19,12 @@ typedef struct tc_boundary {
 tc_status tc_boundary_build(tc_boundary *out, const tc_mesh *mesh, size_t n_tet, tc_error *err);
 void tc_boundary_finish(tc_boundary *b);
 
-/* Is it one closed surface that is convex, up to dents less deep than tolerance (in the mesh's unit)? Every edge and
- * every fan of faces around a vertex is looked at, and that it goes around its middle once: a closed connected surface
- * that is convex at every point is convex (Tietze 1928, Nakajima 1928). Cost: O(n_face). */
+/* Is it one closed surface that is convex, up to dents less deep than tolerance (in the mesh's unit)? No edge may be
+ * reflex, unless its two faces become flat when their corners move by about the tolerance; every face must show its
+ * inner side to the middle, and all together go around it once: a closed connected surface that is convex at every
+ * point is convex (Tietze 1928, Nakajima 1928). Narrow faces do no harm; the angle between faces on both sides of one
+ * that is narrower than the tolerance counts as theirs, and small dents that add up around a vertex are told. Out of
+ * memory: false. Cost: O(n_face log) time, 27 B/face. */
 bool tc_boundary_is_convex(const tc_boundary *b, const double *vertex, double tolerance);
 
 /* A depth that rounding of coordinates explains: 1e-14 of the diagonal plus 4 units in the last place. */

@@ -219,6 +219,31 @@ static void a_convex_mesh_needs_no_helper(void **state)
     end(&m, &s);
 }
 
+/* Tets around one edge, their outer vertices at equal steps around it `turns` times. */
+static tc_mesh_report prepare_fan(int n, int turns)
+{
+    shape s = {0};
+    int32_t low = shape_vertex(&s, 0, 0, -1), high = shape_vertex(&s, 0, 0, 1);
+    for (int i = 0; i < n; i++)
+        shape_vertex(&s, cos(2 * acos(-1) * turns * i / n), sin(2 * acos(-1) * turns * i / n), 0);
+    for (int i = 0; i < n; i++)
+        shape_tet(&s, low, 2 + i, 2 + (i + 1) % n, high);
+    tc_mesh *m = shape_mesh(&s, NULL, TC_POINT_DATA);
+    tc_mesh_report r = shape_prepare(m, TC_REENTRY_PEEL);
+    end(&m, &s);
+    return r;
+}
+
+static void a_fan_of_thousands_has_gaps_and_one_around_twice_has_none(void **state)
+{
+    (void)state;
+    assert_true(prepare_fan(5, 1).convex);
+    assert_true(prepare_fan(3000, 1).convex);
+    assert_true(prepare_fan(20000, 1).convex);
+    assert_false(prepare_fan(5, 2).convex);
+    assert_false(prepare_fan(1001, 2).convex);
+}
+
 static void another_reentry_redoes_only_the_gaps(void **state)
 {
     (void)state;
@@ -400,6 +425,7 @@ int main(void)
         cmocka_unit_test(gaps_up_to_the_hull_are_filled),
         cmocka_unit_test(sides_flat_to_rounding_do_not_prevent_filling),
         cmocka_unit_test(a_convex_mesh_needs_no_helper),
+        cmocka_unit_test(a_fan_of_thousands_has_gaps_and_one_around_twice_has_none),
         cmocka_unit_test(another_reentry_redoes_only_the_gaps),
         cmocka_unit_test_setup_teardown(a_helper_that_dies_or_hangs_means_peeling, fake_setup, fake_teardown),
         cmocka_unit_test(boundaries_that_cannot_be_filled_mean_peeling),
