@@ -174,7 +174,7 @@ static void a_flat_fan_that_rounding_dents_is_a_dent(void **state)
 /* A cube, each face four triangles around its middle, which is moved out by `out`. */
 static surface star(double out)
 {
-    surface s = surface_of(15, 26);
+    surface s = surface_of(17, 30);
     for (int c = 0; c < 8; c++)
         point(&s, c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
     static const uint8_t around[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
@@ -236,19 +236,26 @@ static void a_surface_wound_twice_is_convex(void **state)
     }
 }
 
-/* A vertex within one of a cube's triangles, then moved in the plane over the next triangle. */
+/* Cuts face f into three at a point of the cube's top. */
+static void cut_top(surface *s, size_t f, double x, double y)
+{
+    int32_t *v = s->face + 3 * f;
+    size_t inner = (size_t)point(s, x, y, 1);
+    face(s, (size_t)v[1], (size_t)v[2], inner);
+    face(s, (size_t)v[2], (size_t)v[0], inner);
+    v[2] = (int32_t)inner;
+}
+
+/* Three vertices within the top of a cube, the last one then moved in the plane over a next triangle. */
 static void a_lid_folded_in_its_plane_is_convex(void **state)
 {
     (void)state;
     for (int folded = 0; folded < 2; folded++)
         for (int f = 0; f < FRAMES - 1; f++) {
             surface s = star(0);
-            const int32_t *last = s.face + 3 * (s.n_face - 4); /* on the top: (-1, -1), (1, -1), (0, 0) */
-            size_t a = (size_t)last[0], b = (size_t)last[1], c = (size_t)last[2];
-            size_t inner = (size_t)point(&s, folded ? 0.6 : 0, folded ? 0.1 : -0.4, 1);
-            s.face[3 * (s.n_face - 4) + 2] = (int32_t)inner;
-            face(&s, b, c, inner);
-            face(&s, c, a, inner);
+            cut_top(&s, s.n_face - 4, 0, -0.5);                     /* (-1, -1), (1, -1), (0, 0) */
+            cut_top(&s, s.n_face - 1, -0.3, -0.45);                 /* (0, 0), (-1, -1), (0, -0.5) */
+            cut_top(&s, s.n_face - 1, folded ? 0.1 : -0.1, -0.315); /* (0, -0.5), (0, 0), (-0.3, -0.45) */
             if (f > 0)
                 turn(&s, frame[f][0], frame[f][1]);
             assert_true(is_convex(&s, -1) == !folded);
