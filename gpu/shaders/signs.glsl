@@ -1,19 +1,32 @@
 // signs.glsl: on which side of an edge the ray passes, exactly (design: "Exact signs"; docs/stability.md).
+//
+// The crosses are weights, too (stepper.glsl), so they must be right to the last digits even where the two products nearly
+// cancel: where a ray passes an edge closely, or a face edge-on. A product of two floats is exact in double; doubles are
+// cheap on the CPU and dear on GPUs, which have a fused multiply-add instead.
 
-// Below this share of |p| + |q| the float cross is replaced by the double one: its sign would be safe down to 4.8e-7,
-// its value as a weight is not.
-const float SIGN_NEAR = 1.0e-5;
-// What a true zero counts as weight: nothing, but with a sign.
+// A cross nearer to zero than this is looked at again; what a true zero counts as weight: nothing, but with a sign.
 const float SIGN_TINY = 1.0e-30;
+#ifndef SOFTWARE
+// Bound of a float cross's rounding, as a share of its two products; holds with and without fused multiply-add.
+const float SIGN_ROUNDING = 4.8e-7;
+#endif
 
-// Cross product of two projected vertices in float. `sure` becomes false where that is not enough.
+// Cross product of two projected vertices. `sure` becomes false where its sign may not be that of the exact one.
 float sign_cross_fast(vec2 p, vec2 q, inout bool sure)
 {
-    precise float m = p.x * q.y;
-    precise float n = p.y * q.x;
-    precise float c = m - n;
-    sure = sure && abs(c) > SIGN_NEAR * (abs(m) + abs(n));
+#ifdef SOFTWARE
+    precise double e = double(p.x) * double(q.y) - double(p.y) * double(q.x);
+    float c = float(e);
+    sure = sure && abs(c) > SIGN_TINY;
     return c;
+#else
+    // Kahan's difference of products: 1.5 units in the last place (Jeannerod, Louvet and Muller 2013).
+    precise float n = p.y * q.x;
+    precise float rest = fma(-p.y, q.x, n);
+    precise float c = fma(p.x, q.y, -n) + rest;
+    sure = sure && abs(c) > max(SIGN_ROUNDING * (abs(c) + 2.0 * abs(n)), SIGN_TINY);
+    return c;
+#endif
 }
 
 // Cross product of two projected vertices i and j: never zero; its sign is that of the exact cross of the float
