@@ -7,7 +7,7 @@
 /* Views and functions that relations are tried with: whole lines in perspective and in parallel, and all colours. */
 enum { VIEW_FRONT = 0, VIEW_OBLIQUE = 2, FUNCTION_CONSTANT = 1, FUNCTION_SMOOTH = 2, FUNCTION_OPAQUE = 3 };
 
-enum { CELLS_SHORT = 1500, CELLS_LONG = 8000, CELLS_HUGE = 10000000 };
+enum { CELLS_BLADES = 400, CELLS_SHORT = 1500, CELLS_LONG = 8000, CELLS_HUGE = 10000000 };
 
 static size_t generators(void)
 {
@@ -30,6 +30,8 @@ const char *hard_catalogue_mesh(size_t index)
 
 size_t hard_catalogue_cells(size_t index, bool long_run)
 {
+    if (index < generators() && strcmp(hard_catalogue_mesh(index), "blades") == 0)
+        return CELLS_BLADES; /* each is a layer to peel */
     return index >= generators() ? CELLS_HUGE : long_run ? CELLS_LONG : CELLS_SHORT;
 }
 
