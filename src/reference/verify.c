@@ -61,13 +61,15 @@ static double distance(const double a[4], const double b[4])
 
 /* Moves the ray by SHIFT of the diagonal to the four sides, along u and v, and to the four corners between them (a ray
  * at a corner of the hull may stay in the mesh, or out of it, on all four sides), then the data by +-SHIFT of their
- * range, then overlapping parts of the mesh against each other along the ray by up to SHIFT of the diagonal. */
+ * range, then overlapping parts of the mesh against each other along the ray by up to SHIFT of the diagonal. A ray that
+ * lies in a face or runs through an edge or a vertex is on no particular side of it; the trace takes one, by a move of
+ * no length along u and v, and is asked for the others by turning these. */
 static tc_status judge(bool *ill, const check *c, const tc_line *line, const tc_reference_ray *ray, int worker)
 {
     *ill = false;
     static const double side[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
     const double by = SHIFT * 2 * c->reference->half_diagonal;
-    for (int k = 0; k < 12 && !*ill; k++) {
+    for (int k = 0; k < 15 && !*ill; k++) {
         tc_line moved = *line;
         double data = 0;
         if (k < 8) {
@@ -76,8 +78,15 @@ static tc_status judge(bool *ill, const check *c, const tc_line *line, const tc_
         } else if (k < 10) {
             data = k % 2 ? -SHIFT * c->range : SHIFT * c->range;
         }
-        if (k >= 10)
+        if (k >= 12) {
+            double cosine = k == 13 ? -1 : 0, sine = k == 12 ? 1 : k == 14 ? -1 : 0;
+            for (int i = 0; i < 3; i++) {
+                moved.u[i] = cosine * line->u[i] + sine * line->v[i];
+                moved.v[i] = cosine * line->v[i] - sine * line->u[i];
+            }
+        } else if (k >= 10) {
             moved.unsure = k % 2 ? -by : by;
+        }
         tc_reference_ray other;
         tc_status status = tc_line_trace(&other, c->reference, c->tf, c->unit, &moved, data, worker);
         if (status != TC_OK)

@@ -223,6 +223,39 @@ static void ray_at_a_corner_counts_as_an_error(void **state)
     }
 }
 
+/* A ray in a side of one cell, and inside another by less than any shift: moved to either side it is in one of the two,
+ * and shows the same; where it is it may be in both. */
+static void ray_in_the_side_of_one_of_two_cells_counts_as_an_error(void **state)
+{
+    (void)state;
+    for (int turned = 0; turned < 2; turned++) {
+        double up = turned ? -1 : 1, e = up * 1e-16;
+        const double vertex[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, up, 0},
+                                     {0, e, 2}, {1, e, 2}, {0, e, 3}, {0, -up, 2}};
+        struct tc_mesh mesh = mesh_alloc(8, 2);
+        memcpy(mesh.vertex, vertex, sizeof vertex);
+        for (int i = 0; i < 8; i++)
+            mesh.tet[i] = i;
+        tc_reference *reference = reference_of(&mesh);
+        tc_knot knot = {0, 1, 1, 1, 1};
+        struct tc_transfer tf = {.n = 1, .knot = &knot};
+        tc_rays rays = {.parallel = true, .width = 1, .height = 1, .origin = {0.2, 0, -1}, .direction = {0, 0, 1}};
+        rays.axis[2] = 1;
+        rays.far = INFINITY;
+        for (int cells = 1; cells <= 2; cells++) {
+            float alpha = (float)-expm1(-0.8 * cells), pixel[4] = {alpha, alpha, alpha, alpha};
+            tc_image image = {1, 1, pixel};
+            tc_verify_result v;
+            tc_error err;
+            if (tc_reference_verify(&v, &image, 1, 1, reference, &tf, 1, &rays, 1, NULL, &err) != TC_OK)
+                fail_msg("%s", err.text);
+            assert_true(v.max_abs_error < 1e-6);
+        }
+        tc_reference_destroy(&reference);
+        mesh_free(&mesh);
+    }
+}
+
 /* A cell value that lies on a step of the function: the data decide, not the ray. */
 static void value_on_a_step_counts_as_an_error(void **state)
 {
@@ -334,6 +367,7 @@ int main(void)
         cmocka_unit_test(sample_repeats_or_favours_pixels),
         cmocka_unit_test(ray_in_a_side_counts_as_an_error),
         cmocka_unit_test(ray_at_a_corner_counts_as_an_error),
+        cmocka_unit_test(ray_in_the_side_of_one_of_two_cells_counts_as_an_error),
         cmocka_unit_test(value_on_a_step_counts_as_an_error),
         cmocka_unit_test(nan_in_the_picture_passes),
         cmocka_unit_test(bad_arguments_are_accepted),
