@@ -104,14 +104,30 @@ static void copy_coarse(mesh_variant *out, const tc_mesh_arrays *from, size_t pa
             out->scalar[i] = from->scalar[i / parts];
 }
 
+/* Each tet's vertices ascending: equal tets are then divided alike. */
+static void sort_corners(int32_t *sorted, const tc_mesh_arrays *from)
+{
+    memcpy(sorted, from->tet, from->n_tet * 4 * sizeof *sorted);
+    for (size_t i = 0; i < from->n_tet; i++)
+        for (size_t k = 1; k < 4; k++)
+            for (int32_t *at = sorted + 4 * i + k; at > sorted + 4 * i && at[-1] > at[0]; at--) {
+                int32_t t = at[0];
+                at[0] = at[-1];
+                at[-1] = t;
+            }
+}
+
 tc_status variant_refine4(mesh_variant *out, const tc_mesh_arrays *from, tc_error *err)
 {
-    tc_status status = reserve(out, from, from->n_vertex + from->n_tet, 4 * from->n_tet, err);
+    int32_t *sorted = tc_alloc(from->n_tet, 4 * sizeof *sorted);
+    tc_status status = sorted ? reserve(out, from, from->n_vertex + from->n_tet, 4 * from->n_tet, err)
+                              : tc_fail_memory(err, "the corners of a mesh", from->n_tet, 4 * sizeof *sorted);
     if (status != TC_OK)
-        return status;
+        goto done;
     copy_coarse(out, from, 4);
+    sort_corners(sorted, from);
     for (size_t i = 0; i < from->n_tet; i++) {
-        const int32_t *tet = from->tet + 4 * i;
+        const int32_t *tet = sorted + 4 * i;
         size_t center = from->n_vertex + i;
         add_mean(out, from, center, tet, 4);
         for (size_t k = 0; k < 4; k++) {
@@ -120,7 +136,9 @@ tc_status variant_refine4(mesh_variant *out, const tc_mesh_arrays *from, tc_erro
             part[k] = (int32_t)center;
         }
     }
-    return TC_OK;
+done:
+    free(sorted);
+    return status;
 }
 
 /* An edge of a tet: its vertices, ascending, and where its middle's number is wanted. */
@@ -154,19 +172,6 @@ static void number_edges(int32_t *middle, edge *e, size_t *n, const int32_t *sor
         middle[e[i].slot] = (int32_t)*n;
     }
     *n += n_tet > 0;
-}
-
-/* Each tet's vertices ascending: equal tets are then divided alike. */
-static void sort_corners(int32_t *sorted, const tc_mesh_arrays *from)
-{
-    memcpy(sorted, from->tet, from->n_tet * 4 * sizeof *sorted);
-    for (size_t i = 0; i < from->n_tet; i++)
-        for (size_t k = 1; k < 4; k++)
-            for (int32_t *at = sorted + 4 * i + k; at > sorted + 4 * i && at[-1] > at[0]; at--) {
-                int32_t t = at[0];
-                at[0] = at[-1];
-                at[-1] = t;
-            }
 }
 
 tc_status variant_refine8(mesh_variant *out, const tc_mesh_arrays *from, tc_error *err)
