@@ -17,6 +17,8 @@
 enum {
     AUTO_STEPS_SOFTWARE = 512, /* where a pass costs next to nothing: most rays end in the first */
     AUTO_STEPS_HARDWARE = 64,
+    SOFTWARE_ROUNDS = 60000, /* of loops in one invocation, within llvmpipe's limit */
+    ROUNDS_BESIDE = 100,     /* a step's own, besides those of integrate_pieces.glsl for each piece */
     AUTO_Z_SMALL = 4 /* for few steps a pass; Weiler et al. 2003, 5.2, found 14 best: 3 to 6 % more fragments here */
 };
 
@@ -150,6 +152,11 @@ static void choose_passes(tc_job *job, const tc_render_options *options)
     job->steps_per_pass = options->steps_per_pass > 0 ? options->steps_per_pass
                           : job->software             ? AUTO_STEPS_SOFTWARE
                                                       : AUTO_STEPS_HARDWARE;
+    if (job->software &&
+        job->pieces) { /* a segment may cross every piece, and loops are cut after 65535 rounds in all */
+        int most = (int)(SOFTWARE_ROUNDS / ((double)job->n_piece + ROUNDS_BESIDE));
+        job->steps_per_pass = job->steps_per_pass < most ? job->steps_per_pass : most > 1 ? most : 1;
+    }
     int every = options->z_update_every;
     if (every == 0)
         every = job->steps_per_pass >= 8 ? 2 : AUTO_Z_SMALL;

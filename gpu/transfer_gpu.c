@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { PIECES_MOST = 50000 }; /* a segment that crosses them all is within the loop limit of software renderers */
 enum { INTERVALS_LEAST = 8192, INTERVALS_MOST = 65536 }; /* powers of two: places of nodes are exact in float */
 static const double INTERVALS_A_RISE = 64;               /* over which the function may go from none to all */
 static const double UNSPLIT_ERROR = 1e-3;                /* running integrals are taken where a picture errs by less, */
@@ -204,9 +205,10 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         wanted.length_max = request->length_max > 0 ? request->length_max : 1;
     } else {
         wanted.size[0] = choose_nodes(request->transfer, wanted.span);
+        bool few = request->transfer->n <= PIECES_MOST;
         /* Data of one value may lie on a step, where nodes hold the mean of both sides. */
-        wanted.pieces =
-            wanted.size[0] > INTERVALS_MOST || !(request->scalar[1] > request->scalar[0]) || needs_pieces(request);
+        wanted.pieces = few && (wanted.size[0] > INTERVALS_MOST || !(request->scalar[1] > request->scalar[0]) ||
+                                needs_pieces(request));
     }
     bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
                 t->pieces == wanted.pieces && (t->pieces || memcmp(t->size, wanted.size, sizeof t->size) == 0) &&
