@@ -34,7 +34,8 @@ void tc_line_init(tc_line *out, const tc_reference *reference, const double orig
     tc_vec_mul_add(out->base, o, t, out->d);
     out->t_min = range[0] * reference->scale - t;
     out->t_max = range[1] * reference->scale - t;
-    out->unsure = 0;
+    out->unsure = out->rounding = 0;
+    out->draw = 0;
     out->whole = false;
 
     int k = 0;
@@ -52,11 +53,22 @@ typedef struct corner {
     double x, y;
 } corner;
 
-static corner project(const tc_line *line, const double *vertex)
+/* A number in [-1, 1] that depends on its arguments alone (murmur3's finalizer, Appleby). */
+static double noise(uint32_t draw, uint32_t id, uint32_t axis)
 {
-    double q[3];
-    tc_vec_sub(q, vertex, line->base);
-    return (corner){tc_vec_dot(q, line->u), tc_vec_dot(q, line->v)};
+    uint32_t h = draw * 0x9e3779b9u + id * 4u + axis;
+    h = (h ^ h >> 16) * 0x85ebca6bu;
+    h = (h ^ h >> 13) * 0xc2b2ae35u;
+    return (double)(h ^ h >> 16) / 2147483647.5 - 1;
+}
+
+/* A vertex as seen from the line's base, the same for every tet. */
+static void place(double q[3], const tc_reference *reference, const tc_line *line, int32_t id)
+{
+    tc_vec_sub(q, &reference->vertex[3 * (size_t)id], line->base);
+    if (line->rounding > 0)
+        for (uint32_t k = 0; k < 3; k++)
+            q[k] += line->rounding * noise(line->draw, (uint32_t)id, k);
 }
 
 /* Cross product of a and b where its rounded products are equal: what the rounding hid, and its sign (never 0). a has
@@ -130,9 +142,12 @@ static bool clip(tc_hit *hit, double *worst, const tc_reference *reference, cons
                  double shift)
 {
     const int32_t *id = reference->tet[item];
+    double q[4][3];
     corner p[4];
-    for (int i = 0; i < 4; i++)
-        p[i] = project(line, &reference->vertex[3 * (size_t)id[i]]);
+    for (int i = 0; i < 4; i++) {
+        place(q[i], reference, line, id[i]);
+        p[i] = (corner){tc_vec_dot(q[i], line->u), tc_vec_dot(q[i], line->v)};
+    }
     /* Both bounds strict: a ray through the rim still needs its signs. */
     if ((p[0].x > 0 && p[1].x > 0 && p[2].x > 0 && p[3].x > 0) ||
         (p[0].x < 0 && p[1].x < 0 && p[2].x < 0 && p[3].x < 0) ||
@@ -151,9 +166,7 @@ static bool clip(tc_hit *hit, double *worst, const tc_reference *reference, cons
     uint32_t tet = reference->bvh.order[item];
     double z[4], value[4], t[4], s[4];
     for (int i = 0; i < 4; i++) {
-        double q[3];
-        tc_vec_sub(q, &reference->vertex[3 * (size_t)id[i]], line->base);
-        z[i] = tc_vec_dot(q, line->d);
+        z[i] = tc_vec_dot(q[i], line->d);
         value[i] = !mesh->scalar ? 0 : mesh->association == TC_CELL_DATA ? mesh->scalar[tet] : mesh->scalar[id[i]];
         value[i] += shift;
     }

@@ -154,6 +154,20 @@ static bool along_z(hard_view *out, const place *p, int size)
     return along_axis(out, p, 2, size);
 }
 
+/* As along z, turned by 2e-6 so that rays cross planes of the grid nearly in them, and rolled so that both coordinates
+ * of a projected vertex matter: crosses of nearly equal products. */
+static bool grazing(hard_view *out, const place *p, int size)
+{
+    if (!along_axis(out, p, 2, size))
+        return false;
+    out->camera.position[0] += 2e-6 * 2 * p->diagonal;
+    out->camera.view_up[0] = 0.6;
+    out->camera.view_up[1] = 0.8;
+    out->camera.view_up[2] = 0;
+    out->grazing = true;
+    return true;
+}
+
 static bool along_edge(hard_view *out, const place *p, int size)
 {
     double d[3];
@@ -437,6 +451,7 @@ static const struct {
     {"clipped to a slab, parallel", clip_slab, false},
     {"1 x 1", one_pixel, false},
     {"16384 x 1", one_row, false},
+    {"grazing planes of the grid", grazing, false},
     {"4096 x 4096", large, true},
 };
 enum { N_VIEW = sizeof views / sizeof *views };

@@ -8,7 +8,9 @@ typedef struct hard_view {
     const char *name;
     tc_camera camera;
     int width, height;
-    bool whole; /* rays are whole lines: the eye is outside and nothing is clipped */
+    bool grazing; /* rays pass faces so nearly in them that true lengths and colours say nothing: the walk is judged by
+                     exact arithmetic on the floats it sees */
+    bool whole;   /* rays are whole lines: the eye is outside and nothing is clipped */
 } hard_view;
 
 /* How many there are, and their names. */

@@ -47,7 +47,7 @@ static hard_case plain(size_t view, size_t function)
 
 static size_t short_cases(hard_case *out, size_t index, bool gpu)
 {
-    size_t n = 0, views = hard_view_count() - 1; /* the last is large */
+    size_t n = 0, views = hard_view_count() - 2; /* the last is large, the one before it seldom tells */
     for (size_t k = 0; k < 3; k++)
         out[n++] = plain((3 * index + k) % views, 5 * index + 7 * k + 2);
     out[n] = plain(index % 2 ? VIEW_FRONT : VIEW_OBLIQUE, FUNCTION_CONSTANT);

@@ -49,6 +49,7 @@ typedef struct probe {
     size_t pixel;
     hard_walk walk;
     double all, real; /* errors of the walk's lengths, in diagonals */
+    double walk_real; /* the same against exact arithmetic on the floats that the walk sees */
     bool wrong, ill, failed;
 } probe;
 
@@ -56,7 +57,7 @@ typedef struct force {
     const hard_mesh *mesh;
     const hard_picture *picture;
     tc_frame frame;
-    bool exact;
+    bool exact, grazing;
     probe *probe;
 } force;
 
@@ -84,6 +85,10 @@ static void judge_ray(const force *f, probe *p, int worker)
     if (p->failed)
         return;
     p->wrong = f->exact && p->walk.doubt == 0 && (p->walk.cells != audit->cells || p->walk.hash != audit->hash);
+    if (f->exact && p->walk.doubt == 0 && !p->wrong)
+        p->walk_real = fabs(audit->length_real - p->walk.length_real) / m->diagonal;
+    if (f->grazing)
+        return;
     p->all = fabs(audit->length - all) / m->diagonal;
     p->real = fabs(audit->length_real - real) / m->diagonal;
     for (int k = 0; k < RAY_SIDES && fmax(p->all, p->real) > HARD_LENGTH && !p->ill; k++) {
@@ -115,10 +120,11 @@ static size_t choose(const hard_picture *p, uint64_t *state, bool hit)
 }
 
 /* Invariants 1 and 2. */
-static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_mesh *mesh, const hard_picture *picture)
+static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_mesh *mesh, const hard_view *view,
+                           const hard_picture *picture)
 {
     size_t n = bench->judged, pixels = (size_t)picture->image->width * (size_t)picture->image->height;
-    force f = {.mesh = mesh, .picture = picture, .exact = bench->exact};
+    force f = {.mesh = mesh, .picture = picture, .exact = bench->exact, .grazing = view->grazing};
     n = n < pixels ? n : pixels;
     f.probe = tc_calloc(n, sizeof *f.probe);
     if (!f.probe) {
@@ -142,6 +148,7 @@ static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_m
         r->wrong += p->wrong;
         wrong = p->wrong ? p : wrong;
         r->ill_length += p->ill;
+        r->walk_error = fmax(r->walk_error, p->walk_real);
         if (!p->ill) {
             r->length_error = fmax(r->length_error, p->all);
             r->real_error = fmax(r->real_error, p->real);
@@ -159,6 +166,8 @@ static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_m
         hard_fail(r, "brute force finds other than 0 or 2 faces on %zu rays", broken);
     if (!(r->length_error <= HARD_LENGTH))
         hard_fail(r, "a ray's length is wrong by %.2e diagonals", r->length_error);
+    if (!(r->walk_error <= HARD_WALK))
+        hard_fail(r, "a ray's length in real cells is %.2e diagonals from that of exact weights", r->walk_error);
     if (!(r->real_error <= HARD_LENGTH))
         hard_fail(r, "a ray's length in real cells is wrong by %.2e diagonals", r->real_error);
     free(f.probe);
@@ -284,10 +293,10 @@ void hard_judge_case(hard_picture *out, hard_result *r, const hard_bench *bench,
         if (!picture_is_sane(what, sizeof what, p->image, function->tf, NULL, HARD_PICTURE))
             hard_fail(r, "%s", what);
         if (bench->gpu)
-            judge_by_force(r, bench, mesh, p);
-        if (function->kappa >= 0 && view->whole && mesh->kind == HARD_PLAIN && mesh->generator->chord)
+            judge_by_force(r, bench, mesh, view, p);
+        if (function->kappa >= 0 && view->whole && !view->grazing && mesh->kind == HARD_PLAIN && mesh->generator->chord)
             judge_by_chord(r, mesh, p, function, table ? HARD_ALPHA_TABLE : HARD_ALPHA_INTEGRAL);
-        if (!table)
+        if (!table && !view->grazing)
             judge_by_reference(r, mesh, p, function, bench->verified);
     }
     if (bench->write && p->image)

@@ -5,8 +5,10 @@
 #include "cameras.h"
 #include "functions.h"
 
-/* Bounds: of lengths, in diagonals; of pictures; of alpha over analytic chords; the share of ill-posed rays. */
+/* Bounds: of lengths, in diagonals, against true ones and against exact arithmetic on the same floats; of pictures; of
+ * alpha over analytic chords; the share of ill-posed rays. */
 #define HARD_LENGTH 1e-5
+#define HARD_WALK 2e-6
 #define HARD_PICTURE (1.0 / 510)
 #define HARD_ALPHA_INTEGRAL 1e-5
 #define HARD_ALPHA_TABLE 5e-4
@@ -27,6 +29,7 @@ typedef struct hard_result {
     int64_t rays, lost, broken;
     size_t judged, wrong, doubtful, cycles; /* rays by brute force; other cells than the walk's */
     double length_error, real_error;        /* in diagonals, without ill-posed rays */
+    double walk_error;                      /* of real lengths against exact weights of the same floats, all rays */
     size_t ill_length;                      /* rays whose length jumps */
     size_t pixels, ill_posed;               /* by the reference */
     double picture_error;

@@ -84,6 +84,7 @@ static void add_result(hard_row *row, const hard_result *r)
     s->ill_compared += r->ill_compared;
     s->length_error = fmax(s->length_error, r->length_error);
     s->real_error = fmax(s->real_error, r->real_error);
+    s->walk_error = fmax(s->walk_error, r->walk_error);
     s->picture_error = fmax(s->picture_error, r->picture_error);
     s->alpha_error = fmax(s->alpha_error, r->alpha_error);
     s->difference = fmax(s->difference, r->difference);
@@ -149,11 +150,11 @@ tc_status hard_table_write_markdown(const hard_table *t, const char *path, tc_er
 
 static json_t *json_of(const hard_result *r)
 {
-    return json_pack("{s:I s:I s:I s:I s:I s:I s:I s:f s:f s:I s:I s:I s:f s:I s:I s:f s:I s:I s:f}", "rays",
+    return json_pack("{s:I s:I s:I s:I s:I s:I s:I s:f s:f s:f s:I s:I s:I s:f s:I s:I s:f s:I s:I s:f}", "rays",
                      (json_int_t)r->rays, "rays_lost", (json_int_t)r->lost, "broken_cells", (json_int_t)r->broken,
                      "judged", (json_int_t)r->judged, "other_cells", (json_int_t)r->wrong, "doubtful",
                      (json_int_t)r->doubtful, "closed_paths", (json_int_t)r->cycles, "length_error", r->length_error,
-                     "real_length_error", r->real_error, "ill_posed_lengths", (json_int_t)r->ill_length, "pixels",
+                     "real_length_error", r->real_error, "walk_error", r->walk_error, "ill_posed_lengths", (json_int_t)r->ill_length, "pixels",
                      (json_int_t)r->pixels, "ill_posed", (json_int_t)r->ill_posed, "picture_error", r->picture_error,
                      "chords", (json_int_t)r->chords, "ill_posed_chords", (json_int_t)r->ill_chord, "alpha_error",
                      r->alpha_error, "compared", (json_int_t)r->compared, "ill_posed_compared",

@@ -26,8 +26,9 @@ edit() {
 
 case $name in
 float-signs)
-    # Nothing is ever unsure, so neither doubles nor ties are reached.
-    edit signs.glsl 's/^    sure = sure \&\& abs(c).*/    sure = sure;/' 2
+    # As plain floats, nothing is ever unsure: neither doubles nor ties are reached.
+    edit signs.glsl 's/^    precise double e = double(p.x) \* double(q.y) - double(p.y) \* double(q.x);$/    precise float m = p.x * q.y, n = p.y * q.x, e = m - n;/
+        s/^    sure = sure \&\& abs(c) > SIGN_TINY;/    sure = sure;/' 4
     ;;
 no-ties)
     edit signs.glsl '/^        if (e == 0.0LF)$/d; /^            positive = p.y != q.y/d' 2
@@ -36,7 +37,9 @@ ids-only)
     edit signs.glsl 's/^            positive = p.y != q.y.*/            positive = i < j;/' 2
     ;;
 float-weights)
-    edit signs.glsl 's/^const float SIGN_NEAR = .*/const float SIGN_NEAR = 4.8e-7;/' 2
+    # The cross is plain float wherever that has the right sign.
+    edit signs.glsl 's/^    precise double e = double(p.x) \* double(q.y) - double(p.y) \* double(q.x);$/    precise float m = p.x * q.y, n = p.y * q.x, e = m - n;/
+        s/^    sure = sure \&\& abs(c) > SIGN_TINY;/    sure = sure \&\& abs(c) > 4.8e-7 * (abs(m) + abs(n));/' 4
     ;;
 eye-origin)
     # The origin lies t directions beyond the eye, and moves over the image as much as the direction does.

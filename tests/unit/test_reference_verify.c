@@ -256,6 +256,27 @@ static void ray_in_the_side_of_one_of_two_cells_counts_as_an_error(void **state)
     }
 }
 
+/* A plate of 1e-5 of its width, opaque within a tenth of that: how thick it is, is rounded away in float. */
+static void thickness_of_a_plate_counts_as_an_error(void **state)
+{
+    (void)state;
+    scene s;
+    scene_init(&s, true, 1);
+    for (size_t i = 0; i < s.mesh.n_vertex; i++)
+        s.mesh.vertex[3 * i + 2] *= 1e-5;
+    tc_reference_destroy(&s.reference);
+    s.reference = reference_of(&s.mesh);
+    tc_knot knot[3] = {{0, 1, 1, 1, 0}, {0.9, 1, 1, 1, 0}, {1, 1, 1, 1, 2e5}};
+    s.tf.n = 3, s.tf.knot = knot;
+    draw(&s, 1);
+    for (int k = 0; k < 4 * W * H; k++)
+        s.pixels[k] *= 1.005f;
+    tc_verify_result v = verify(&s, W * H, 1, 1);
+    assert_true(v.worst_error_ill_posed > 2e-3);
+    assert_true(v.max_abs_error < 1.0 / 510);
+    scene_finish(&s);
+}
+
 /* A cell value that lies on a step of the function: the data decide, not the ray. */
 static void value_on_a_step_counts_as_an_error(void **state)
 {
@@ -368,6 +389,7 @@ int main(void)
         cmocka_unit_test(ray_in_a_side_counts_as_an_error),
         cmocka_unit_test(ray_at_a_corner_counts_as_an_error),
         cmocka_unit_test(ray_in_the_side_of_one_of_two_cells_counts_as_an_error),
+        cmocka_unit_test(thickness_of_a_plate_counts_as_an_error),
         cmocka_unit_test(value_on_a_step_counts_as_an_error),
         cmocka_unit_test(nan_in_the_picture_passes),
         cmocka_unit_test(bad_arguments_are_accepted),
