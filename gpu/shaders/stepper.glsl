@@ -7,9 +7,8 @@
 //
 // Use:  walk_face, then until the ray is finished
 //           walk_exact, then walk_step, and after it walk_step again for as long as walk_fast says yes.
-// Exact signs cost doubles, which are seldom needed; a group of lanes that runs in step pays for them whenever they
-// stand in its loop. So they stand outside of it: walk_fast looks at the next cell in float, and gives up where that is
-// in doubt.
+// Ties are rare, but a group of lanes that runs in step pays for their rules whenever these stand in its loop. So they
+// stand outside of it: walk_fast looks at the next cell, and gives up where a sign is in doubt.
 
 #include "ray.glsl"
 #include "signs.glsl"
@@ -92,7 +91,7 @@ void walk_exact(inout Walk w, Ray ray)
                      sign_cross(w.d.xy, w.c.xy, w.ahead, w.id.z));
 }
 
-// The same in float; false where that is not enough, and walk_exact must be called.
+// The same without the rules for ties; false where a sign is in doubt, and walk_exact must be called.
 bool walk_fast(inout Walk w, Ray ray)
 {
     bool sure = true;
