@@ -286,13 +286,13 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
         tc_state_poison(&r->state, gl);
     tc_job job = {.gl = gl, .programs = r->programs, .state = &r->state, .mesh = &r->mesh};
     if (status == TC_OK) {
-        job.length_unit = 1 / (r->scale * frame->unit_distance);
+        job.length_unit = fmin(1 / (r->scale * frame->unit_distance), 1e30); /* a float, and its products */
         job.cell_data = r->mesh.cell_scalar.texture != 0;
         const tc_transfer_gpu_request request = {
             .transfer = frame->transfer,
             .options = options,
             .scalar = {r->scalar_lo, r->scalar_hi},
-            .length_max = mesh->report.longest_edge / frame->unit_distance,
+            .length_max = mesh->report.longest_edge * r->scale * job.length_unit,
             .extent = &r->extent,
             .length_unit = job.length_unit,
             .threads = r->threads,

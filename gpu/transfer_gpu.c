@@ -2,6 +2,7 @@
 #include "gpu/transfer_gpu.h"
 
 #include "core/parallel.h"
+#include "transfer_functions/place.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,6 +16,13 @@ static const double UNSPLIT_DEPTH = 100;                 /* no edge is optically
 static const double UNSPLIT_SHARE_WILD = 0.04;
 static const double UNSPLIT_SHARE = 0.005;    /* as needs_pieces reckons */
 static const double NEAR_LEAST = 1.0 / 16384; /* smallest difference of x that cumulatives resolve */
+/* Running integrals are for spans that nodes can divide, for a function that is not far narrower than the data, and for
+ * lengths whose squares are floats; the rest is integrated piece by piece. */
+static const double WIDTH_LEAST = 1e-300;
+static const double NARROW_MOST = 1e6;
+static const double LENGTH_UNIT_MOST = 1e15;
+static const double MAP_MOST = 1e30;       /* x beyond is the same piece: integrate_pieces.glsl */
+static const double WIDEN_CONSTANT = 1e-3; /* of the scalar: the span of data of one value */
 
 static tc_integrator choose(const tc_render_options *options, tc_render_stats *stats)
 {
@@ -35,8 +43,24 @@ static void find_span(double span[2], const tc_transfer_gpu_request *request)
     span[1] = fmin(knots[1], request->scalar[1]);
     if (!(span[1] > span[0])) { /* constant over the data, or data without a range */
         span[0] = request->scalar[0];
-        span[1] = request->scalar[1] > request->scalar[0] ? request->scalar[1] : request->scalar[0] + 1;
+        span[1] = request->scalar[1];
     }
+    if (!(span[1] > span[0])) { /* data of one value: any width that a double tells apart from it */
+        double widen = fmax(1, fabs(span[0]) * WIDEN_CONSTANT);
+        span[1] = span[0] + widen;
+        if (!isfinite(span[1])) {
+            span[1] = span[0];
+            span[0] -= widen;
+        }
+    }
+}
+
+/* Is the function over the span beyond what nodes a fixed share of it apart can hold? */
+static bool is_beyond_nodes(const tc_transfer_gpu_request *request, const double span[2])
+{
+    double range = request->scalar[1] - request->scalar[0], width = span[1] - span[0];
+    return !isfinite(range) || !isfinite(width) || width < WIDTH_LEAST || range > NARROW_MOST * width ||
+           request->length_unit > LENGTH_UNIT_MOST;
 }
 
 /* Enough nodes to resolve the steepest rise; more than INTERVALS_MOST where no number is enough. */
@@ -115,11 +139,17 @@ static bool needs_pieces(const tc_transfer_gpu_request *request)
 static void bind(tc_job *job, const tc_transfer_gpu *t)
 {
     job->integrator = t->integrator;
-    /* Halves: the range may exceed what a double holds. */
-    double range = t->scalar[1] > t->scalar[0] ? 0.5 * t->scalar[1] - 0.5 * t->scalar[0] : 0;
-    double width = 0.5 * t->span[1] - 0.5 * t->span[0];
+    double range = t->scalar[1] - t->scalar[0], width = t->span[1] - t->span[0];
+    if (!isfinite(range) || !isfinite(width)) { /* halves only there: they lose the digits of denormal numbers */
+        range = 0.5 * t->scalar[1] - 0.5 * t->scalar[0];
+        width = 0.5 * t->span[1] - 0.5 * t->span[0];
+    }
     job->map[0] = range / width;
-    job->map[1] = (0.5 * t->scalar[0] - 0.5 * t->span[0]) / width;
+    job->map[1] = tc_place(t->scalar[0], t->span[0], t->span[1]);
+    if (!(job->map[0] <= MAP_MOST)) { /* a step to float, at the same scalar; the range holds the span */
+        job->map[0] = MAP_MOST;
+        job->map[1] = -MAP_MOST * tc_place(t->span[0], t->scalar[0], t->scalar[1]);
+    }
     job->extend = t->integrator == TC_INTEGRATOR_INTEGRAL && range > 0 &&
                   (t->span[0] > t->scalar[0] || t->span[1] < t->scalar[1]);
     memcpy(job->mean, t->mean, sizeof job->mean);
@@ -208,7 +238,7 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         bool few = request->transfer->n <= PIECES_MOST;
         /* Data of one value may lie on a step, where nodes hold the mean of both sides. */
         wanted.pieces = few && (wanted.size[0] > INTERVALS_MOST || !(request->scalar[1] > request->scalar[0]) ||
-                                needs_pieces(request));
+                                is_beyond_nodes(request, wanted.span) || needs_pieces(request));
     }
     bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
                 t->pieces == wanted.pieces && (t->pieces || memcmp(t->size, wanted.size, sizeof t->size) == 0) &&

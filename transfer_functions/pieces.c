@@ -10,6 +10,10 @@
 
 static const double OPAQUE = 1e25; /* attenuation beyond which more is no different, and floats overflow */
 
+/* A float holds it and what comes of it. Only pieces narrower than 1e-12 of the span are steeper: they begin with their
+ * own value and rise less, the next one begins with its own again. */
+static const double STEEPEST = 1e37;
+
 static void knot_value(float out[4], const tc_knot *k)
 {
     out[0] = (float)k->r;
@@ -31,7 +35,7 @@ static tc_piece linear(double x0, double x1, const tc_knot *p, const tc_knot *q)
     tc_piece piece = {.from = (float)x0, .to = (float)x1};
     knot_value(piece.value, p);
     for (int c = 0; c < 4; c++) /* over the width that float sees, so that the piece ends at the next knot's value */
-        piece.slope[c] = (float)(rise[c] / ((double)piece.to - (double)piece.from));
+        piece.slope[c] = (float)fmax(-STEEPEST, fmin(STEEPEST, rise[c] / ((double)piece.to - (double)piece.from)));
     return piece;
 }
 

@@ -85,7 +85,7 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float t)
 {
     i.depth += t;
     float transmittance = exp(-i.depth);
-    float inverse = mean.a > 0.0 ? 1.0 / mean.a : 0.0;
+    float inverse = mean.a > 1.0e-37 ? 1.0 / mean.a : 0.0;
     float k = i.transmittance * t * t / (12.0 + t * (6.0 + 2.0 * t));
     float e = (i.transmittance - transmittance) * inverse;
     k *= inverse;

@@ -12,6 +12,7 @@ uniform int tf_piece_count;
 uniform int tf_piece_half; // a power of two, at least half the count
 uniform vec2 tf_map;       // scalar → x = s * tf_map.x + tf_map.y
 
+const float PIECE_FAR = 1.0e30; // the outer pieces reach there
 const float PIECE_THICK = 1.0;
 const float PIECE_OPAQUE = 1.0e-6; // transmittance below which the rest of a segment is nothing
 
@@ -31,7 +32,7 @@ float tf_place(float s)
 #ifdef NONFINITE
     s = isnan(s) ? 0.0 : s; // of a cell that contributes nothing
 #endif
-    return s * tf_map.x + tf_map.y;
+    return clamp(s * tf_map.x + tf_map.y, -PIECE_FAR, PIECE_FAR);
 }
 
 // Makes `piece` the current one, x being in it.
@@ -94,7 +95,7 @@ void integral_add(inout Integral i, float s, float l)
         bool whole = t <= PIECE_THICK;
         if (!whole) { // up to the share f whose optical depth is PIECE_THICK: a f^2 + b f = c
             float most_a = max(i.front.a, back.a);
-            float a = 0.5 * (back.a - i.front.a) / most_a, b = i.front.a / most_a, c = PIECE_THICK / part / most_a;
+            float a = 0.5 * (back.a - i.front.a) / most_a, b = i.front.a / most_a, c = max(PIECE_THICK / part / most_a, 1.0e-37);
             float f = clamp(2.0 * c / (b + sqrt(max(b * b + 4.0 * a * c, 0.0))), 0.0, 1.0);
             back = mix(i.front, back, f);
             end = mix(i.x, end, f);
@@ -110,7 +111,13 @@ void integral_add(inout Integral i, float s, float l)
             break;
     }
     if (i.x != x)
-        integral_enter(i, s); // the rest was behind what is opaque
+        integral_enter(i, s); // the rest is behind what is opaque
+    if (rest > 0.0 && i.transmittance >= PIECE_OPAQUE) { // … or rounds ran out: as it is at the end
+        i.depth += rest * i.front.a;
+        float transmittance = exp(-i.depth);
+        i.rgb += i.front.rgb * (i.transmittance - transmittance);
+        i.transmittance = transmittance;
+    }
 }
 
 #ifdef NAN_COLOR

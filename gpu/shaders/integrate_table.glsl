@@ -31,15 +31,17 @@ void integral_enter(inout Integral i, float s)
 // Opacity is interpolated linearly between the table's lengths; where cells are much shorter than the longest one that adds
 // up. Optical depth, however, is linear in length: with n steps of the table's length and the share f of one more,
 //   y = -log(1 - a) = (n + f) x - f (1 - f) x^2 / 2 + O(x^3)
-// for the optical depth x of one step. Solved for x by iteration, this gives (n + f) x. What to multiply a by.
+// for the optical depth x of one step. Solved for x by iteration, this gives (n + f) x. What to multiply a by: near
+// 1 + missing a for a small a, of which 1 - a would lose the digits.
 float length_correction(float a, float steps)
 {
-    float f = fract(steps), y = -log(max(1.0 - a, 1.0e-6));
+    float f = fract(steps), y = a < 1.0e-3 ? a * (1.0 + a * (0.5 + a * (1.0 / 3.0))) : -log(max(1.0 - a, 1.0e-6));
     float missing = 0.5 * f * (1.0 - f) / max(steps * steps, 1.0e-12);
     float depth = y + missing * y * y;
     depth = y + missing * depth * depth;
     depth = y + missing * depth * depth;
-    return a > 0.0 ? min((1.0 - exp(-depth)) / a, 1.0 / a) : 1.0;
+    float opacity = depth < 0.01 ? depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0))) : 1.0 - exp(-depth);
+    return a > 0.0 ? min(opacity, 1.0) / a : 1.0;
 }
 #endif
 

@@ -320,6 +320,54 @@ static void constant_missing_or_broken_data_are_wrong(void **state)
     tc_transfer_destroy(&tf);
 }
 
+static void constant_data_of_large_magnitude_are_wrong(void **state)
+{
+    (void)state;
+    static const double value[] = {1e16, -1e300, 1.7e308};
+    static const tc_integrator integrators[] = {TC_INTEGRATOR_AUTO, TC_INTEGRATOR_INTEGRAL, TC_INTEGRATOR_TABLE};
+    for (int i = 0; i < 3; i++) {
+        const tc_knot knot[] = {{value[i], 1, 0.5, 0, 0.7}};
+        const double values[5] = {value[i], value[i], value[i], value[i], value[i]};
+        tc_transfer *tf = suite_function(knot, 1);
+        tc_mesh *mesh = two_tets(values, TC_POINT_DATA, TC_REENTRY_AUTO);
+        tc_camera camera = suite_camera(mesh, 0.3, 0.2, 1, false);
+        for (int k = 0; k < (suite_is_gpu() ? 3 : 1); k++) {
+            tc_render_options options = suite_options(33, 33);
+            options.unit_distance = 1;
+            options.integrator = integrators[k];
+            suite_check("constant data of large magnitude", mesh, tf, &camera, &options);
+        }
+        tc_mesh_destroy(&mesh);
+        tc_transfer_destroy(&tf);
+    }
+}
+
+/* The function is a step to float, rises too steeply for it, or acts over lengths that are no floats. */
+static void functions_at_the_ends_of_float_are_wrong(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *what;
+        double unit_distance;
+        tc_knot knot[3];
+    } c[] = {
+        {"a span of 1e-31", 1, {{0, 1, 0, 0, 0}, {1e-31, 0, 1, 0, 1}, {1e-31, 0, 1, 0, 1}}},
+        {"a slope of 1e40", 1, {{0, 1, 0, 0, 0.5}, {1e-20, 1, 0, 0, 1e20}, {1, 1, 0, 0, 1e20}}},
+        {"a unit of 1e-42", 1e-42, {{0, 1, 0, 0, 0}, {1, 1, 0, 0, 1}, {2, 1, 0, 0, 2}}},
+    };
+    static const double values[5] = {0, 1, 0, 1, 2};
+    tc_mesh *mesh = two_tets(values, TC_POINT_DATA, TC_REENTRY_AUTO);
+    tc_camera camera = suite_camera(mesh, 0.3, 0.2, 1, false);
+    for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
+        tc_transfer *tf = suite_function(c[i].knot, 3);
+        tc_render_options options = suite_options(33, 33);
+        options.unit_distance = c[i].unit_distance;
+        suite_check(c[i].what, mesh, tf, &camera, &options);
+        tc_transfer_destroy(&tf);
+    }
+    tc_mesh_destroy(&mesh);
+}
+
 static void new_values_are_not_seen(void **state)
 {
     (void)state;
@@ -376,6 +424,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(cell_data_are_not_crisp),
         cmocka_unit_test(cell_data_of_a_whole_mesh_are_wrong),
         cmocka_unit_test(constant_missing_or_broken_data_are_wrong),
+        cmocka_unit_test(constant_data_of_large_magnitude_are_wrong),
+        cmocka_unit_test(functions_at_the_ends_of_float_are_wrong),
         cmocka_unit_test(new_values_are_not_seen),
     };
     if (!suite_begin(argc, argv))

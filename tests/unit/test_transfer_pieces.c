@@ -78,6 +78,26 @@ static void a_narrow_piece_has_an_infinite_slope(void **state)
     tc_transfer_destroy(&tf);
 }
 
+/* Float tells its ends apart, and yet its slope is no float: it begins with its own value and so does the next one. */
+static void a_piece_near_zero_has_an_infinite_slope(void **state)
+{
+    static const tc_knot knot[] = {{0, 0, 0, 0, 0.5}, {1e-20, 1, 1, 1, 1e20}, {2e-20, 0, 0, 0, 0}, {1, 0, 0, 0, 1e20}};
+    (void)state;
+    tc_transfer *tf = function(knot, 4);
+    tc_pieces p = build(tf, 0, 1);
+    assert_int_equal(p.n, 5);
+    for (size_t k = 0; k < p.n; k++)
+        for (int c = 0; c < 4; c++) {
+            float width = k > 0 && k + 1 < p.n ? p.piece[k].to - p.piece[k].from : 0;
+            float end = p.piece[k].value[c] + p.piece[k].slope[c] * width;
+            assert_true(isfinite(p.piece[k].slope[c]) && end >= 0 && end <= 1.001e20F);
+        }
+    for (size_t k = 0; k < 4; k++)
+        assert_true(p.piece[k + 1].value[3] == (float)knot[k].a);
+    tc_pieces_finish(&p);
+    tc_transfer_destroy(&tf);
+}
+
 static void one_knot_makes_no_pieces(void **state)
 {
     (void)state;
@@ -98,6 +118,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_piece_has_another_value_than_the_function),
         cmocka_unit_test(a_narrow_piece_has_an_infinite_slope),
+        cmocka_unit_test(a_piece_near_zero_has_an_infinite_slope),
         cmocka_unit_test(one_knot_makes_no_pieces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
