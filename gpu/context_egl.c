@@ -79,16 +79,20 @@ static tc_status open_display(tc_context *context, EGLDisplay display, tc_error 
         config = NULL; /* EGL_KHR_no_config_context */
     s->bind_api(EGL_OPENGL_API);
     for (int minor = 5; minor >= 3 && s->context == EGL_NO_CONTEXT; minor -= 2) {
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                     4,
-                                     EGL_CONTEXT_MINOR_VERSION,
-                                     minor,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                     context->debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE,
-                                     EGL_TRUE,
-                                     EGL_NONE};
+        EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               4,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               minor,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               context->debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE,
+                               EGL_TRUE,
+                               EGL_NONE};
         s->context = s->create_context(display, config, EGL_NO_CONTEXT, attributes);
+        if (s->context == EGL_NO_CONTEXT && context->debug) { /* before EGL 1.5 there is no such attribute */
+            attributes[6] = EGL_NONE;
+            s->context = s->create_context(display, config, EGL_NO_CONTEXT, attributes);
+        }
     }
     tc_status status = TC_OK;
     if (s->context == EGL_NO_CONTEXT)

@@ -8,15 +8,24 @@
 enum { TC_PACK_PLANES_BYTES = 4 * 16 + 4 * 16 + 4 * 4 + 16 }; /* a cell; the paper's section 6 counts the same 160 */
 
 /* Vertex i of cell t lies opposite face i, as in the mesh. Positions and scalars are those of the pack, as it rounded
- * them. vertex    [n_cell][4][4] v(t,i) in x, y, z; the fourth is 0 normal    [n_cell][4][4] n(t,i): unit, pointing out
- * of the cell, 0 where the face has no area. The fourth is 1 + f(t,i), the number of this face in the neighbour (0
- * outside), negative in imaginary cells neighbour [n_cell][4]    a(t,i): the neighbour's index, -1 outside scalar
- * [n_cell][4]    g(t), and g^(t): the scalar at x is dot(g, x) + g^. A cell without volume, or so flat that its
- * gradient exceeds TC_PACK_PLANES_STEEP, holds the mean of its vertices; NaN where a vertex holds NaN */
+ * them. */
 typedef struct tc_pack_planes {
     size_t n_cell;
-    float *vertex, *normal, *scalar;
+
+    /* [n_cell][4][4] v(t,i) in x, y, z; the fourth is 0 */
+    float *vertex;
+
+    /* [n_cell][4][4] n(t,i): unit, pointing out of the cell, 0 where the face has no area. The fourth is 1 + f(t,i),
+     * the number of this face in the neighbour (0 outside), negative in imaginary cells. */
+    float *normal;
+
+    /* [n_cell][4] g(t), and g^(t): the scalar at x is dot(g, x) + g^. A cell without volume, or so flat that its
+     * gradient exceeds TC_PACK_PLANES_STEEP, holds the mean of its vertices; NaN where a vertex holds NaN. */
+    float *scalar;
+
+    /* [n_cell][4] a(t,i): the neighbour's index, -1 outside */
     int32_t *neighbour;
+
     double ms;
 } tc_pack_planes;
 

@@ -13,13 +13,14 @@
 
 #include "core/memory.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    MOST_CUT = 7,                                          /* corners of a triangle cut by four planes */
-    MOST_CORNERS = 2 * (3 * (MOST_CUT - 2) + 6 * MOST_CUT) /* that one face may need */
+    MOST_CUT = 13,                                          /* corners of a triangle cut by four planes: see cut */
+    MOST_CORNERS = 2 * (3 * (MOST_CUT - 2) + 6 * MOST_CUT), /* that one face may need */
 };
 static const float MARGIN = 0.0625f;  /* pixels: how far a face is enlarged beside its rounding error */
 static const float ROUNDING = 1e-6f;  /* of clip coordinates, relative to their terms */
@@ -167,10 +168,12 @@ static float inside(const screen *s, place h, int k)
     return CONE * h.w + s->apex[k / 2] - (k % 2 ? -across : across);
 }
 
-/* Cuts the convex polygon p [*n] by side k. */
+/* Cuts the polygon p [*n] by side k. Corners within rounding of the side may lie within and beyond it by turns, as
+ * those of no convex polygon do: of n corners up to n / 2 are kept then, with two crossings beside each, so 3 corners
+ * become 4, 6, 9 and 13 at most. */
 static void cut(place *p, int *n, const screen *s, int k)
 {
-    place out[MOST_CUT + 1];
+    place out[MOST_CUT];
     int count = 0;
     for (int i = 0; i < *n; i++) {
         place a = p[i], b = p[(i + 1) % *n];
@@ -182,7 +185,8 @@ static void cut(place *p, int *n, const screen *s, int k)
             out[count++] = (place){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.w + t * (b.w - a.w)};
         }
     }
-    *n = count < MOST_CUT ? count : MOST_CUT; /* rounding cannot make more of a triangle and four planes */
+    assert(count <= MOST_CUT);
+    *n = count;
     memcpy(p, out, (size_t)*n * sizeof *p);
 }
 

@@ -42,6 +42,7 @@ struct tc_gpu_renderer {
     tc_state state;
     tc_proposals proposals;
     int drawn[4]; /* part of the result that is not empty */
+    bool audited; /* the state holds the audit of a whole picture */
     int64_t *fragments;
 };
 
@@ -165,6 +166,8 @@ static void choose_passes(tc_job *job, const tc_render_options *options)
 
 tc_status tc_gpu_audit(tc_audit_ray *out, tc_gpu_renderer *r, tc_error *err)
 {
+    if (!r->audited)
+        return tc_fail(err, TC_E_ARG, "there is no audited picture; make one with tc_render_options.audit");
     tc_status status = tc_context_make_current(r->context, err);
     return status == TC_OK ? tc_audit_read(out, &r->state, &r->context->gl, r->scale, r->drawn, err) : status;
 }
@@ -263,6 +266,7 @@ static void fill_stats(tc_render_stats *stats, tc_gpu_renderer *r, const tc_job 
 
 tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu_frame *frame, tc_error *err)
 {
+    r->audited = false;
     tc_status status = tc_context_make_current(r->context, err);
     if (status != TC_OK)
         return status;
@@ -364,6 +368,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     }
     if (status == TC_OK && job.audit && !planes) /* planes are not said to hold the ray */
         status = count_broken(stats, r, err);
+    r->audited = status == TC_OK && job.audit;
     if (status == TC_OK && result.rays_lost > 0 && planes)
         status =
             tc_fail(err, TC_E_LOST,

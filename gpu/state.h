@@ -27,7 +27,8 @@ typedef struct tc_state {
     size_t bytes;
 } tc_state;
 
-/* Of options: width, height, count, audit (which counts as well). Errors: TC_E_ARG when the image exceeds the GL's limit, TC_E_MEMORY, TC_E_GL. */
+/* Of options: width, height, count, audit (which counts as well).
+ * Errors: TC_E_ARG when the image exceeds the GL's limit, TC_E_MEMORY, TC_E_GL. */
 tc_status tc_state_create(tc_state *out, const tc_gl *gl, const tc_render_options *options, bool peeling, tc_error *err);
 void tc_state_finish(tc_state *state, const tc_gl *gl);
 /* For tests: the worst that a frame can find. NaN in all that the last one left but the result, and everything locked.

@@ -248,7 +248,8 @@ typedef struct tc_camera {
                                    parallel projection, too */
 } tc_camera;
 
-/* Whole box in view from direction (from focal point to eye), as vtkRenderer::ResetCamera does.
+/* Whole box in view from direction (from focal point to eye), as vtkRenderer::ResetCamera does. Sets all of the camera,
+ * clip_near and clip_far to 0, but not `parallel`: that is kept as it is, so set it yourself in a new one.
  *   bounds [6], direction [3], up [3]; aspect = width / height. */
 TC_API void tc_camera_reset(tc_camera *camera, const double *bounds, const double *direction, const double *up,
                             double view_angle, double aspect);
@@ -330,7 +331,8 @@ typedef struct tc_render_options {
     int z_update_every;           /* passes between z-locks, 1 … 65536, rounded up to even; 0: auto; -1: never lock */
     bool count;                   /* count steps, fragments per pass (costs time) */
     tc_stepper stepper;
-    bool audit;                   /* the walk checks itself (costs time): tc_render_stats.audit_broken, tc_render_audit */
+    bool audit;                   /* the walk checks itself (costs time): tc_render_stats.audit_broken, tc_render_audit;
+                                     not by the driver "reference", which does not walk */
     bool has_nan_color;           /* cells with a value that is not finite show nan_color; otherwise they are transparent */
     double nan_color[4];          /* r, g, b, attenuation per unit distance */
 } tc_render_options;
@@ -353,8 +355,9 @@ typedef struct tc_render_stats {
 /* Renders to out (made by the call). The mesh must be prepared; it, tf and camera are borrowed. Mesh, function and
  * programs stay uploaded in the renderer until another one is given, so a second frame costs first hit and march only.
  * In a host's context (get_proc_address) the GL state is put back as in tc_render_gl.
- * Errors: TC_E_ARG (an option out of its range, a mesh that is not prepared, a camera without a direction), TC_E_LOST
- * (out is still made, for diagnosis), TC_E_MESH (too many cells for the driver), TC_E_GL, TC_E_MEMORY. */
+ * Errors: TC_E_ARG (an option out of its range or not the driver's, a mesh that is not prepared, a camera without a
+ * direction), TC_E_LOST (out is still made, for diagnosis), TC_E_MESH (too many cells for the driver), TC_E_GL,
+ * TC_E_MEMORY. */
 TC_API tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
                            const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
                            const tc_log *log, tc_error *err);
@@ -363,8 +366,9 @@ TC_API tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *
  * neither depth nor scissor test. The GL state that the renderer touches is put back, on failure too; errors of the
  * host's that are pending (glGetError) are dropped. No query of the host's for samples passed or primitives may be
  * active.
- * Errors: TC_E_ARG (as tc_render; a renderer whose driver does not use GL), TC_E_LOST (nothing is drawn), TC_E_MESH,
- * TC_E_GL, TC_E_MEMORY. */
+ * Errors: TC_E_ARG (as tc_render; a renderer whose driver does not use GL), TC_E_LOST (nothing is drawn; so
+ * TC_STEPPER_PLANES draws only where it happens to lose no ray: use tc_render to see what it makes), TC_E_MESH, TC_E_GL,
+ * TC_E_MEMORY. */
 TC_API tc_status tc_render_gl(unsigned framebuffer, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
                               const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
                               const tc_log *log, tc_error *err);
@@ -386,7 +390,8 @@ static inline uint32_t tc_audit_hash(uint32_t cell)
     return h ^ (h >> 16);
 }
 
-/* out [height][width], row 0 at the top. Errors: TC_E_ARG (the last picture was not audited), TC_E_GL. */
+/* out [height][width] of the last picture, row 0 at the top.
+ * Errors: TC_E_ARG (it was not audited, or rendering it failed otherwise than with TC_E_LOST), TC_E_GL, TC_E_MEMORY. */
 TC_API tc_status tc_render_audit(tc_audit_ray *out, tc_renderer *renderer, tc_error *err);
 
 typedef struct tc_verify_result {

@@ -244,6 +244,10 @@ tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *rendere
                          "the driver '%s' does not walk from cell to cell: the stepper 'planes' needs the "
                          "driver 'pingpong'",
                          renderer->driver->name);
+    if (status == TC_OK && options->audit && !renderer->gpu)
+        status = tc_fail(err, TC_E_ARG,
+                         "the driver '%s' does not walk from cell to cell: an audit needs the driver 'pingpong'",
+                         renderer->driver->name);
     if (status == TC_OK)
         status = tc_image_create(out, options->width, options->height, err);
     if (status != TC_OK)

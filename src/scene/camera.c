@@ -125,6 +125,7 @@ void tc_camera_reset(tc_camera *camera, const double *bounds, const double *dire
     tc_vec_copy(camera->view_up, view_up);
     camera->view_angle = view_angle;
     camera->parallel_scale = scale;
+    camera->clip_near = camera->clip_far = 0;
 }
 
 /* Turns the position about the focal point. */

@@ -163,6 +163,15 @@ tc_status suite_try_audit(tc_audit_ray *out, tc_error *err)
     return tc_render_audit(out, suite.renderer, err);
 }
 
+tc_status suite_try_render(const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,
+                           const tc_render_options *options, tc_error *err)
+{
+    tc_image *image;
+    tc_status status = tc_render(&image, NULL, suite.renderer, mesh, tf, camera, options, NULL, err);
+    tc_image_destroy(&image);
+    return status;
+}
+
 void suite_audit(tc_audit_ray *out)
 {
     tc_error err = {0};

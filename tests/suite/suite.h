@@ -56,6 +56,9 @@ tc_image *suite_render(tc_render_stats *stats, const tc_mesh *mesh, const tc_tra
 /* The audit of the last picture, out [height][width]; the test ends where there is none. */
 void suite_audit(tc_audit_ray *out);
 tc_status suite_try_audit(tc_audit_ray *out, tc_error *err);
+/* A picture that is expected to fail; whatever was made of it is freed. */
+tc_status suite_try_render(const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,
+                           const tc_render_options *options, tc_error *err);
 /* The largest difference of a channel. */
 double suite_difference(const tc_image *a, const tc_image *b);
 /* How far the picture is from the double-precision reference in n pixels, and that this is at most `bound` apart from

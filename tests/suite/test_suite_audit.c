@@ -1,10 +1,13 @@
 /* test_suite_audit.c: the walk's own account of itself (tc_render_audit): cells, lengths, faces that hold the ray. */
+#define _DEFAULT_SOURCE
 #include "suite.h"
 
 #include "datasets_synthetic/synth.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { WIDTH = 72, HEIGHT = 60, PIXELS = WIDTH * HEIGHT };
 
@@ -113,6 +116,56 @@ static void a_picture_without_audit_gives_one(void **state)
     tc_mesh_destroy(&mesh);
 }
 
+/* Fails behind the first hits, with the last picture's state still there, by a shader that does not compile. */
+static void a_failed_picture_gives_the_last_ones_audit(void **state)
+{
+    (void)state;
+    tc_mesh *mesh = suite_synth("tet", 0, TC_REENTRY_CONVEXIFY);
+    tc_transfer *tf = suite_benchmark(mesh);
+    tc_camera camera = suite_camera(mesh, 0.2, 0.3, 1, false);
+    tc_render_options options = suite_options(WIDTH, HEIGHT);
+    tc_error err = {0};
+    char folder[] = "/tmp/tetcast-test-XXXXXX", path[64];
+    options.audit = true;
+    tc_image *image = suite_render(NULL, mesh, tf, &camera, &options);
+    suite_audit(first);
+    tc_image_destroy(&image);
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/march.frag", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs("#error broken on purpose\n", file) >= 0 && fclose(file) == 0);
+    assert_int_equal(setenv("TETCAST_SHADERS", folder, 1), 0);
+    tc_status status = suite_try_render(mesh, tf, &camera, &options, &err);
+    unsetenv("TETCAST_SHADERS");
+    unlink(path);
+    rmdir(folder);
+    assert_int_equal(status, TC_E_GL);
+    assert_int_equal(suite_try_audit(second, &err), TC_E_ARG);
+    assert_non_null(strstr(err.text, "audit"));
+    image = suite_render(NULL, mesh, tf, &camera, &options);
+    suite_audit(second);
+    assert_memory_equal(first, second, sizeof first);
+    tc_image_destroy(&image);
+    tc_transfer_destroy(&tf);
+    tc_mesh_destroy(&mesh);
+}
+
+static void the_reference_takes_an_audit(void **state)
+{
+    (void)state;
+    tc_mesh *mesh = suite_synth("tet", 0, TC_REENTRY_CONVEXIFY);
+    tc_transfer *tf = suite_benchmark(mesh);
+    tc_camera camera = suite_camera(mesh, 0.2, 0.3, 1, false);
+    tc_render_options options = suite_options(WIDTH, HEIGHT);
+    tc_error err = {0};
+    options.audit = true;
+    assert_int_equal(suite_try_render(mesh, tf, &camera, &options, &err), TC_E_ARG);
+    assert_non_null(strstr(err.text, "audit needs the driver 'pingpong'"));
+    tc_transfer_destroy(&tf);
+    tc_mesh_destroy(&mesh);
+}
+
 int main(int argc, char **argv)
 {
     if (!suite_begin(argc, argv))
@@ -122,8 +175,12 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_cells_depend_on_the_passes),
         cmocka_unit_test(peeling_and_convexifying_differ_in_real_length),
         cmocka_unit_test(a_picture_without_audit_gives_one),
+        cmocka_unit_test(a_failed_picture_gives_the_last_ones_audit),
     };
-    const struct CMUnitTest reference[] = {cmocka_unit_test(a_picture_without_audit_gives_one)};
+    const struct CMUnitTest reference[] = {
+        cmocka_unit_test(a_picture_without_audit_gives_one),
+        cmocka_unit_test(the_reference_takes_an_audit),
+    };
     int failed =
         suite_is_gpu() ? cmocka_run_group_tests(gpu, NULL, NULL) : cmocka_run_group_tests(reference, NULL, NULL);
     suite_end();

@@ -263,6 +263,37 @@ static void eyes_on_the_boundary_or_narrow_views_propose_too_little(void **state
     finish(&f);
 }
 
+/* Faces with corners within rounding of several sides of the cone, near its apex: each cut finds corners within and
+ * beyond it by turns, so that nine are left in the end, more than a convex polygon has. */
+static void corners_at_the_cones_sides_overflow(void **state)
+{
+    (void)state;
+    static const float faces[][9] = {
+        {0x1p-148f, 0x1p-149f, -0x1.a36e2ep-14f, -0x1.041896p-4f, -0x1.ba29c8p-5f, 0x1.0346dcp-5f, 0x1p-149f,
+         -0x1p-149f, 0x1.1ad42cp-9f},
+        {0x1.780002p-31f, -0x1.526664p-32f, -0x1.a36ddp-14f, -0x1.916874p-14f, -0x1.916876p-14f, -0x1.b573eap-15f,
+         -0x1.a2d0e4p-3f, -0x1.a2d0e6p-3f, 0x1.a2680ap-4f},
+        {0x1.11f0c6p-7f, -0x1.ac083p-3f, 0x1.ab9f56p-4f, 0x1.620002p-29f, -0x1.62p-29f, -0x1.a36cccp-14f, -0x1p-149f,
+         -0x1p-149f, -0x1.a36e2ep-14f},
+        {-0x1.c08302p-18f, -0x1.c08304p-18f, -0x1.956a16p-14f, 0x1.2a7efcp-11f, -0x1.72229p-12f, 0x1.8346dcp-13f, 0, 0,
+         -0x1.a36e2ep-14f},
+        {-0x1.fa5e34p-2f, -0x1.fa5e36p-2f, 0x1.fa29c8p-3f, 0x1.d80004p-30f, -0x1.d8p-30f, -0x1.a36d42p-14f,
+         -0x1.4aa8f6p-27f, 0x1.4e0004p-27f, -0x1.a368f6p-14f},
+        {-0x1.eb8522p-16f, -0x1.7f62b8p-17f, -0x1.65fd8ap-14f, -0x1.af1a9ep-2f, -0x1.af1a9ep-2f, 0x1.aee632p-3f,
+         0x1.7c0002p-30f, -0x1.9a6668p-32f, -0x1.a36d7p-14f},
+        {-0x1.d58102p-3f, 0x1.d58108p-3f, 0x1.d5182ap-4f, -0x1.05a1c8p-4f, -0x1.05a1cap-4f, 0x1.04d012p-5f,
+         0x1.300002p-32f, -0x1.1dc28cp-33f, -0x1.a36e08p-14f},
+    };
+    enum { N = sizeof faces / sizeof faces[0] };
+    const tc_frame frame = {.clip = {[0] = 1, [5] = 1, [11] = 1}, .eye_inside = true}; /* mesh space is x, y, w */
+    tc_proposals proposals = {0};
+    assert_int_equal(tc_propose(&proposals, &frame, WIDTH, HEIGHT, faces[0], N, NULL), TC_OK);
+    assert_int_equal(proposals.n, 3 * N); /* so near the eye they may be anywhere: the screen, once each */
+    for (size_t i = 0; i < proposals.n; i++)
+        assert_int_equal(proposals.corner[i].face, i / 3);
+    tc_proposals_finish(&proposals);
+}
+
 static void faces_that_look_away_are_proposed(void **state)
 {
     (void)state;
@@ -394,6 +425,7 @@ int main(void)
         cmocka_unit_test(needles_are_not_proposed),
         cmocka_unit_test(an_eye_inside_asks_all_faces_about_all_pixels),
         cmocka_unit_test(eyes_on_the_boundary_or_narrow_views_propose_too_little),
+        cmocka_unit_test(corners_at_the_cones_sides_overflow),
         cmocka_unit_test(faces_that_look_away_are_proposed),
         cmocka_unit_test(rays_of_the_frame_are_beside_the_cameras),
         cmocka_unit_test(clip_space_is_beside_the_rays),

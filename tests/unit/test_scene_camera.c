@@ -301,6 +301,25 @@ static void a_bad_camera_is_accepted(void **state)
     assert_int_equal(tc_rays_from_camera(&r, &c, 8, 8, NULL), TC_OK);
 }
 
+static void reset_keeps_a_clipping_range(void **state)
+{
+    (void)state;
+    for (int parallel = 0; parallel < 2; parallel++) {
+        tc_camera c;
+        memset(&c, 0x7e, sizeof c); /* as a caller's own may be: huge numbers */
+        c.parallel = parallel;
+        tc_camera_reset(&c, BOX, FRONT, UP, 30, 1);
+        assert_true(c.clip_near == 0 && c.clip_far == 0);
+        assert_true(c.parallel == parallel);
+        tc_camera same = {.parallel = parallel};
+        tc_camera_reset(&same, BOX, FRONT, UP, 30, 1);
+        assert_memory_equal(c.position, same.position, sizeof c.position);
+        assert_true(c.view_angle == 30 && c.parallel_scale == same.parallel_scale);
+        tc_rays r;
+        assert_int_equal(tc_rays_from_camera(&r, &c, 8, 8, NULL), TC_OK);
+    }
+}
+
 static void nonsense_moves_poison_the_camera(void **state)
 {
     (void)state;
@@ -327,6 +346,7 @@ int main(void)
         cmocka_unit_test(offset_moves_the_picture),
         cmocka_unit_test(clipping_planes_are_not_across_the_view),
         cmocka_unit_test(a_bad_camera_is_accepted),
+        cmocka_unit_test(reset_keeps_a_clipping_range),
         cmocka_unit_test(nonsense_moves_poison_the_camera),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
