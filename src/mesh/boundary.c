@@ -271,8 +271,8 @@ static bool is_below(const double *x, const plane *p, double tolerance)
 }
 
 /* A face no wider than the tolerance hides the angle between those around it. Do the wide faces that one comes to from
- * edge `id` of wide face p, through narrow ones alone, lie below p? The nearest few faces, as many as a strip or a
- * point of contact has, are looked at. */
+ * edge `id` of wide face p, through narrow ones alone, lie below p? Where there are more of them than a strip or a
+ * point of contact has, that is not known, and the answer no. */
 static bool is_convex_across_narrow(const tc_boundary *b, const double *vertex, int64_t id, const plane *p,
                                     double tolerance)
 {
@@ -289,7 +289,9 @@ static bool is_convex_across_narrow(const tc_boundary *b, const double *vertex, 
             bool seen = wide || g == id / 3;
             for (size_t j = 0; j < n && !seen; j++)
                 seen = queue[j] == g;
-            if (!seen && n < sizeof queue / sizeof queue[0])
+            if (!seen && n == sizeof queue / sizeof queue[0])
+                return false;
+            if (!seen)
                 queue[n++] = g;
         }
     }

@@ -100,7 +100,7 @@ done:
 }
 
 /* Points that TetGen added belong to its cells and lie within the bounds: others would only stretch the frame in which
- * the casters round coordinates. */
+ * the casters round coordinates. Rounding on the way from TetGen's frame may put them a little beyond. */
 static tc_status judge_steiner(const filling *q, const double bounds[6], tc_error *err)
 {
     if (q->n_steiner == 0)
@@ -112,13 +112,14 @@ static tc_status judge_steiner(const filling *q, const double bounds[6], tc_erro
         if ((size_t)q->tet[i] >= q->n)
             used[(size_t)q->tet[i] - q->n] = 1;
     tc_status status = TC_OK;
+    const double rounding = tc_boundary_rounding(bounds);
     for (size_t s = 0; s < q->n_steiner && status == TC_OK; s++) {
         const double *p = q->point + 3 * (q->n + s);
         if (!used[s])
             status = tc_fail(err, TC_E_MESH, "TetGen added a point that none of its tetrahedra has");
         for (int k = 0; k < 3 && status == TC_OK; k++) {
             double x = q->frame.centre[k] + ldexp(p[k], q->frame.exponent);
-            if (!(x >= bounds[2 * k] && x <= bounds[2 * k + 1]))
+            if (!(x >= bounds[2 * k] - rounding && x <= bounds[2 * k + 1] + rounding))
                 status = tc_fail(err, TC_E_MESH, "TetGen added a point outside the mesh's bounds");
         }
     }

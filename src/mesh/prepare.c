@@ -63,19 +63,14 @@ static tc_status link_mesh(tc_mesh *m, int threads, tc_error *err)
  * cost more than the picture. */
 static void say_defects(const tc_log *log, const tc_mesh_report *r)
 {
-    static const char boundary[] = "treated as boundaries, where rays leave the mesh and enter again";
+    static const char what[] = "these faces are treated as boundaries, where rays leave the mesh and enter again, and "
+                               "overlapping cells are composited in the order of entry";
     if (r->faces_of_many > 0)
-        tc_say(log, TC_WARNING,
-               "%zu faces have three cells or more, some of which must overlap: these faces are %s, and overlapping "
-               "cells are "
-               "composited in the order of entry",
-               r->faces_of_many, boundary);
+        tc_say(log, TC_WARNING, "%zu faces have three cells or more, some of which must overlap: %s", r->faces_of_many,
+               what);
     if (r->faces_one_side > 0)
-        tc_say(
-            log, TC_WARNING,
-            "%zu faces lie between two cells on one side, which overlap: these faces are %s, and overlapping cells are "
-            "composited in the order of entry",
-            r->faces_one_side, boundary);
+        tc_say(log, TC_WARNING, "%zu faces lie between two cells on one side, which overlap: %s", r->faces_one_side,
+               what);
     if (r->dropped_duplicate > 0)
         tc_say(log, TC_INFO, "%zu cells are there more than once: the copies were dropped", r->dropped_duplicate);
 }

@@ -293,6 +293,34 @@ static void a_narrow_face_hides_a_reflex_edge(void **state)
         }
 }
 
+/* The same edge behind a strip of more narrow walls than are looked at. */
+static void many_narrow_faces_hide_a_reflex_edge(void **state)
+{
+    (void)state;
+    enum { STRIP = 50, n = STRIP + 9 };
+    const double w = 1e-9;
+    double wall[n][2] = {{0, 1}, {0, 0}, {1, 0}, {2, 0}, {2, 1}};
+    for (int k = 0; k <= STRIP; k++)
+        wall[5 + k][0] = 1 + w * (STRIP - k) / STRIP, wall[5 + k][1] = 1 + w * k / STRIP;
+    wall[n - 3][0] = 1, wall[n - 3][1] = 2;
+    wall[n - 2][0] = 0.5, wall[n - 2][1] = 2;
+    wall[n - 1][0] = 0, wall[n - 1][1] = 2;
+    surface s = surface_of(2 * n + 2, 4 * n);
+    for (int k = 0; k < 2 * n; k++)
+        point(&s, wall[k % n][0], wall[k % n][1], k / n);
+    point(&s, 0.5, 0.5, 0);
+    point(&s, 0.5, 0.5, 1);
+    for (size_t k = 0; k < n; k++) {
+        size_t l = (k + 1) % n;
+        face(&s, k, l, n + k);
+        face(&s, n + l, n + k, l);
+        face(&s, l, k, 2 * n);
+        face(&s, n + k, n + l, 2 * n + 1);
+    }
+    assert_false(is_convex(&s, 1e-7));
+    finish(&s);
+}
+
 /* A smooth body of squares stretched: faces narrow in all ways, squares flat but for rounding. */
 static void stretching_a_convex_body_dents_it(void **state)
 {
@@ -335,6 +363,7 @@ int main(void)
         cmocka_unit_test(a_surface_wound_twice_is_convex),
         cmocka_unit_test(a_lid_folded_in_its_plane_is_convex),
         cmocka_unit_test(a_narrow_face_hides_a_reflex_edge),
+        cmocka_unit_test(many_narrow_faces_hide_a_reflex_edge),
         cmocka_unit_test(stretching_a_convex_body_dents_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

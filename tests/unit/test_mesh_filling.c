@@ -278,12 +278,26 @@ static bool taken(const fake *f, const say *a)
 
 /* -------------------------------------------------------------------------------------------------------- the tests */
 
+/* Four cells between the side x = 0 and a new point (x, 1, 0.5). */
+static void add_hat(say *a, double x)
+{
+    add_point(a, x, 1, 0.5);
+    for (int j = 0; j < 2; j++) { /* the side's two squares: (0, j..j+1, 0..1), diagonal from (j, 0) to (j + 1, 1) */
+        int32_t p = 4 * j, q = 4 * (j + 1), r = 12 + 4 * j, s = 12 + 4 * (j + 1);
+        add_tet(a, q, p, s, STEINER);
+        add_tet(a, s, p, r, STEINER);
+    }
+}
+
 static void right_answers_are_refused(void **state)
 {
     say a = right_answer();
     assert_true(taken(*state, &a));
     add_point(&a, 1.75, 0.5, 0.25); /* cell 0 of the middle: x from 1 to 2, y and z below */
     split(&a, 0);
+    assert_true(taken(*state, &a));
+    a = right_answer(); /* a point on the side x = 0 that rounding has put beyond it: a hat as below, all but flat */
+    add_hat(&a, -1e-15);
     assert_true(taken(*state, &a));
 }
 
@@ -376,13 +390,7 @@ static void added_points_may_lie_anywhere(void **state)
     check_refused(f, &a, "negative volume");
     /* A hat on the side x = 0, convex with the box, volume right: it would only make the frame larger. */
     a = right_answer();
-    add_point(&a, -0.5, 1, 0.5);
-    for (int j = 0; j < 2;
-         j++) { /* the two squares of the side: (0, j..j+1, 0..1), diagonal from (j, 0) to (j + 1, 1) */
-        int32_t p = 4 * j, q = 4 * (j + 1), r = 12 + 4 * j, s = 12 + 4 * (j + 1);
-        add_tet(&a, q, p, s, STEINER);
-        add_tet(&a, s, p, r, STEINER);
-    }
+    add_hat(&a, -0.5);
     a.head.hull_volume = (6 + 2 * 0.5 / 3) * SCALE * SCALE * SCALE;
     check_refused(f, &a, "outside the mesh's bounds");
 }
