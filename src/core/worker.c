@@ -28,7 +28,8 @@ static atomic_size_t peak_of_all;
 
 struct tc_worker {
     char *name;
-    tc_worker_limits limits;
+    tc_worker_limits limits; /* TC_WORKER_MACHINE as a number */
+    bool machine;            /* it was that */
     pid_t pid;
     int pidfd;    /* -1: the kernel has none */
     int socket;   /* ours; -1: closed */
@@ -77,18 +78,41 @@ static char **environment_with(size_t memory_bytes, char **slot)
     return copy;
 }
 
-/* 0: not known. The group is that of Linux's control groups, version 2. */
+/* The least memory limit of the program's control group and those around it (Linux, version 2); 0: none is known.
+ * /proc/self/cgroup holds the line "0::/path" for it. */
+static size_t group_memory(void)
+{
+    char line[1024], path[1200], *group = NULL;
+    size_t least = 0;
+    FILE *file = fopen("/proc/self/cgroup", "re");
+    while (file && !group && fgets(line, sizeof line, file))
+        if (strncmp(line, "0::/", 4) == 0)
+            group = line + 3;
+    if (file)
+        fclose(file);
+    if (!group)
+        return 0;
+    group[strcspn(group, "\n")] = 0;
+    for (char *end = group + strlen(group); end; end = strrchr(group, '/')) {
+        *end = 0;
+        unsigned long long most;
+        snprintf(path, sizeof path, "/sys/fs/cgroup%s/memory.max", group);
+        file = fopen(path, "re");
+        if (file && fscanf(file, "%llu", &most) == 1 && most > 0 && most <= SIZE_MAX && (least == 0 || most < least))
+            least = (size_t)most;
+        if (file)
+            fclose(file);
+    }
+    return least;
+}
+
+/* 0: not known. */
 static size_t machine_memory(void)
 {
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     size_t bytes = pages > 0 && page > 0 ? (size_t)pages * (size_t)page : 0;
-    FILE *file = fopen("/sys/fs/cgroup/memory.max", "re");
-    unsigned long long most;
-    if (file) {
-        if (fscanf(file, "%llu", &most) == 1 && most > 0 && (bytes == 0 || most < bytes))
-            bytes = (size_t)most;
-        fclose(file);
-    }
+    size_t group = group_memory();
+    bytes = group > 0 && (bytes == 0 || group < bytes) ? group : bytes;
     return bytes - bytes / 8;
 }
 
@@ -118,8 +142,7 @@ static int spawn(tc_worker *w, const char *path, int socket, int talk)
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
     char *slot = NULL, *argv[] = {w->name, NULL};
-    size_t memory = w->limits.memory_bytes == TC_WORKER_MACHINE ? machine_memory() : w->limits.memory_bytes;
-    char **environment = environment_with(memory, &slot);
+    char **environment = environment_with(w->limits.memory_bytes, &slot);
     if (!environment)
         return ENOMEM;
     int code = posix_spawn_file_actions_init(&files);
@@ -150,6 +173,9 @@ tc_status tc_worker_start(tc_worker **out, const char *name, const tc_worker_lim
     tc_wire_in_init(&w->in);
     if (limits)
         w->limits = *limits;
+    w->machine = w->limits.memory_bytes == TC_WORKER_MACHINE;
+    if (w->machine)
+        w->limits.memory_bytes = machine_memory();
     w->name = tc_strdup(name);
     if (!w->name) {
         status = tc_fail_memory(err, "a helper program", 1, 64);
@@ -314,7 +340,7 @@ static void put_down(tc_worker *w)
 /* The helper closed its socket: says how it ended. detail: what was amiss with its last message, may be "". */
 static tc_status fail_ended(tc_worker *w, const char *detail, tc_error *err)
 {
-    char line[400], limit[64] = "", cause[160];
+    char line[400], limit[200] = "", cause[160];
     int how = 0;
     ending e = collect_within(w, &how, LINGER_MS);
     if (e == RUNS)
@@ -329,8 +355,9 @@ static tc_status fail_ended(tc_worker *w, const char *detail, tc_error *err)
                  WTERMSIG(how) == SIGKILL ? "; perhaps the system's memory ran out" : "");
     else
         snprintf(cause, sizeof cause, "ended with exit code %d", WEXITSTATUS(how));
-    if (w->limits.memory_bytes > 0 && w->limits.memory_bytes != TC_WORKER_MACHINE)
-        snprintf(limit, sizeof limit, " under its memory limit of %.0f MiB", (double)w->limits.memory_bytes / 1048576);
+    if (w->limits.memory_bytes > 0)
+        snprintf(limit, sizeof limit, " under its memory limit of %.0f MiB%s", (double)w->limits.memory_bytes / 1048576,
+                 w->machine ? " (7/8 of the machine's; if that is too little, use a machine with more)" : "");
     close_all(w);
     return tc_fail(err, TC_E_WORKER, "%s %s%s before it gave a result%s%s%s%s%s", w->name, cause, limit,
                    *detail ? " (" : "", detail, *detail ? ")" : "", *line ? ": " : "", line);

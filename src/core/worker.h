@@ -27,8 +27,8 @@ typedef struct tc_array {
     const void *data;
 } tc_array;
 
-/* As memory_bytes: seven eighths of the memory of the machine (or of the control group that the program is in), so that a
- * damaged count in a file does not push everything else out. */
+/* As memory_bytes: seven eighths of the memory of the machine (or, where that is less, of what Linux's control groups,
+ * version 2, allow the program), so that a damaged count in a file does not push everything else out. */
 #define TC_WORKER_MACHINE SIZE_MAX
 
 typedef struct tc_worker_limits {

@@ -260,6 +260,27 @@ static void a_memory_limit_is_not_set(void **state)
     tc_worker_stop(&worker);
 }
 
+static void the_machines_memory_is_not_a_number(void **state)
+{
+    (void)state;
+    const double all = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    tc_worker *worker = start(0, 20, TC_WORKER_MACHINE);
+    tc_reply reply;
+    tc_error err;
+    assert_int_equal(ask(&reply, worker, "about", &err), TC_OK);
+    json_int_t got = json_integer_value(json_object_get(reply.json, "limit"));
+    if (!SANITIZED)
+        assert_true(got > 0 && (double)got <= all * 7 / 8 + 1);
+    tc_reply_finish(&reply);
+    assert_int_equal(ask(&reply, worker, "crash", &err), TC_E_WORKER);
+    assert_says(&err, " MiB (7/8 of the machine's");
+    char sentence[64];
+    snprintf(sentence, sizeof sentence, "under its memory limit of %.0f MiB", (double)got / 1048576);
+    if (!SANITIZED)
+        assert_says(&err, sentence);
+    tc_worker_stop(&worker);
+}
+
 static void descriptors_of_the_host_reach_the_helper(void **state)
 {
     (void)state;
@@ -435,6 +456,7 @@ int main(void)
         TEST(arrays_outside_their_memory_are_read),
         TEST(an_error_reply_ends_the_helper),
         TEST(a_memory_limit_is_not_set),
+        TEST(the_machines_memory_is_not_a_number),
         TEST(descriptors_of_the_host_reach_the_helper),
         TEST(peak_memory_is_not_the_helpers_own),
         TEST(a_host_that_reaps_children_breaks_the_call),
