@@ -104,18 +104,16 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
     tc_spread_of(&run->first_hit, frames->first_hit, n);
     tc_spread_of(&run->march, frames->march, n);
     tc_spread_of(&run->readback, frames->readback, n);
-    if (!count || !strcmp(run->first.driver, "reference")) /* the reference counts in every frame */
+    if (!count || (!strcmp(run->first.driver, "reference") && !options->audit)) /* it counts in every frame */
         return -1;
     code = tc_frame(run, &run->count, frames->renderer, true, talk);
     run->counted = code < 0;
     if (code >= 0 || !options->audit)
         return code;
-    if (run->count.audit_broken > 0) {
-        tc_talk_error(talk, "%s: in %lld of %lld visited cells other than two faces held the ray; please report it",
-                      options->input, (long long)run->count.audit_broken, (long long)run->count.steps);
-        return TC_EXIT_FAILED;
-    }
-    tc_talk_say(talk, "audit: in all %lld visited cells exactly two faces held the ray", (long long)run->count.steps);
+    run->broken = run->count.audit_broken > 0;
+    if (!run->broken)
+        tc_talk_say(talk, "audit: in all %lld visited cells exactly two faces held the ray",
+                    (long long)run->count.steps);
     return -1;
 }
 
@@ -166,7 +164,8 @@ static void tc_empty_warn(const tc_render_run *run, tc_talk *talk)
                        peak);
         return;
     }
-    tc_empty_reason(why, sizeof why, &run->report, tc_run_field(run), run->tf, &run->camera, &run->options->size);
+    tc_empty_reason(why, sizeof why, &run->report, tc_run_field(run), run->tf,
+                    run->options->nan_color.there ? run->render.nan_color : NULL, &run->camera, &run->options->size);
     tc_talk_always(talk, "the picture is empty: %s", why);
 }
 
@@ -239,6 +238,11 @@ static int tc_render_do(tc_render_run *run, tc_frames *frames, tc_talk *talk, in
         tc_render_summary(run, talk);
     if (code < 0 && run->lost.code)
         code = tc_talk_status(talk, run->lost.code, &run->lost);
+    if (code < 0 && run->broken) {
+        tc_talk_error(talk, "%s: in %lld of %lld visited cells other than two faces held the ray; please report it",
+                      options->input, (long long)run->count.audit_broken, (long long)run->count.steps);
+        code = TC_EXIT_FAILED;
+    }
     return code;
 }
 

@@ -31,6 +31,7 @@ typedef struct tc_render_run {
     tc_verify_result verify;
     bool verified, counted;
     tc_error lost; /* rays that the stepper "planes" lost: said at the end; code TC_OK where there are none */
+    bool broken;   /* the audit found cells in which other than two faces held the ray: said at the end, too */
 } tc_render_run;
 
 /* New reference, or NULL when memory ran out. */

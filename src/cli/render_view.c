@@ -127,7 +127,7 @@ static void tc_box_in_view(double depth[2], bool *aside, const double bounds[6],
 }
 
 void tc_empty_reason(char *why, size_t capacity, const tc_mesh_report *report, const char *field, const tc_transfer *tf,
-                     const tc_camera *camera, const tc_size *size)
+                     const double *nan_color, const tc_camera *camera, const tc_size *size)
 {
     double lo = report->scalar_range[0], hi = report->scalar_range[1];
     const double *b = report->bounds;
@@ -137,9 +137,16 @@ void tc_empty_reason(char *why, size_t capacity, const tc_mesh_report *report, c
     const char *name = field && *field ? field : "the field";
     const tc_knot *knot = tc_transfer_knots(tf, &n);
     tc_box_in_view(depth, &aside, b, camera, size);
-    if (report->nonfinite_cells > 0 && report->nonfinite_cells >= report->n_tet)
+    bool missing = report->nonfinite_cells > 0 && report->nonfinite_cells >= report->n_tet;
+    double peak = missing && nan_color ? nan_color[3] : tc_opacity_peak(tf, lo, hi);
+    if (missing && nan_color && peak <= 0)
+        snprintf(why, capacity,
+                 "every cell has a value of %s that is not finite, and the attenuation A of --nan-color R,G,B,A is 0; "
+                 "make it greater",
+                 name);
+    else if (missing && !nan_color)
         snprintf(why, capacity, "every cell has a value of %s that is not finite; --nan-color shows them", name);
-    else if (tc_opacity_peak(tf, lo, hi) <= 0)
+    else if (peak <= 0)
         snprintf(why, capacity,
                  "the opacity is 0 for every value of %s (%g to %g; the transfer function spans %g to %g); change "
                  "--opacity or --range",
@@ -163,5 +170,5 @@ void tc_empty_reason(char *why, size_t capacity, const tc_mesh_report *report, c
         snprintf(why, capacity,
                  "the mesh is within the view, so it is smaller than a pixel, lies between the rays, or is too thin "
                  "for its opacity (%g at most); try --zoom, a larger --size or a smaller --unit-distance",
-                 tc_opacity_peak(tf, lo, hi));
+                 peak);
 }

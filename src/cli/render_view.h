@@ -11,8 +11,9 @@ int tc_render_camera(tc_camera *out, const tc_render_command *options, const dou
 /* The greatest opacity of a pixel; 0: the picture is empty. */
 float tc_image_peak(const tc_image *image);
 
-/* Fills why with a sentence that says, as far as it can be told, why nothing is seen. */
+/* Fills why with a sentence that says, as far as it can be told, why nothing is seen. nan_color [4]: of --nan-color,
+ * its fourth number the attenuation; NULL: not given. */
 void tc_empty_reason(char *why, size_t capacity, const tc_mesh_report *report, const char *field, const tc_transfer *tf,
-                     const tc_camera *camera, const tc_size *size);
+                     const double *nan_color, const tc_camera *camera, const tc_size *size);
 
 #endif

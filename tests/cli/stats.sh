@@ -40,6 +40,22 @@ says "rays were lost by the stepper 'planes'"
 json planes.json eq march.stepper planes ge march.rays_lost 1 ge verify.rays_lost 1 ge march.steps 100 eq frames 2 \
     has time_ms.frame ge mesh.gpu_bytes_per_tet 160 le mesh.gpu_bytes_per_tet 180
 
+# Cells in which other than two faces hold the ray (here the count is broken) are said at the end, too.
+run 0 render $sink --stats audit.json --audit
+says "exactly two faces held the ray"
+json audit.json eq march.cells_broken 0
+sed 's/walk_holding_faces(w) == 2u/walk_holding_faces(w) == 7u/' "$TC_SOURCE/gpu/shaders/march.frag" >march.frag
+rm -f a.png
+TETCAST_SHADERS=.
+export TETCAST_SHADERS
+run 1 render $sink --stats broken.json --audit
+unset TETCAST_SHADERS
+rm march.frag
+there a.png
+says "visited cells other than two faces held the ray"
+says_not "exactly two faces"
+json broken.json ge march.cells_broken 1000
+
 # A file is read, so reading is timed; peeling makes no imaginary cells.
 run 0 synth heatsink --cells 4000 -o sink.vtu
 run 0 render sink.vtu --size 48x48 -o b.png --stats f.json --reentry peel

@@ -137,16 +137,22 @@ static void scene_make(tc_scene *scene)
     scene->size = (tc_size){100, 100};
 }
 
-static void reason_is(const tc_scene *scene, const tc_knot *knot, size_t n, const char *words)
+static void reason_with(const tc_scene *scene, const tc_knot *knot, size_t n, const double *nan_color,
+                        const char *words)
 {
     char why[512];
     tc_error err = {0};
     tc_transfer *tf = NULL;
     assert_int_equal(tc_transfer_from_knots(&tf, knot, n, &err), TC_OK);
-    tc_empty_reason(why, sizeof why, &scene->report, "heat", tf, &scene->camera, &scene->size);
+    tc_empty_reason(why, sizeof why, &scene->report, "heat", tf, nan_color, &scene->camera, &scene->size);
     tc_transfer_destroy(&tf);
     if (!strstr(why, words))
         fail_msg("'%s' does not say '%s'", why, words);
+}
+
+static void reason_is(const tc_scene *scene, const tc_knot *knot, size_t n, const char *words)
+{
+    reason_with(scene, knot, n, NULL, words);
 }
 
 static void empty_picture_names_its_reason(void **state)
@@ -186,6 +192,16 @@ static void empty_picture_names_its_reason(void **state)
     reason_is(&scene, solid, 2, "within the view");
     scene.report.n_tet = scene.report.nonfinite_cells = 7;
     reason_is(&scene, solid, 2, "every cell has a value of heat that is not finite");
+    reason_is(&scene, solid, 2, "--nan-color shows them");
+    const double hidden[4] = {1, 0, 1, 0}, shown[4] = {1, 0, 1, 1};
+    reason_with(&scene, solid, 2, hidden, "the attenuation A of --nan-color R,G,B,A is 0");
+    scene.report.scalar_range[0] = scene.report.scalar_range[1] = NAN;
+    reason_with(&scene, solid, 2, shown, "within the view");
+    scene.camera.parallel_scale = 2;
+    reason_with(&scene, solid, 2, shown, "outside the view");
+    scene.camera.parallel_scale = 9;
+    scene.report.scalar_range[0] = 0;
+    scene.report.scalar_range[1] = 10;
     scene.report.nonfinite_cells = 6;
     reason_is(&scene, solid, 2, "within the view");
 }

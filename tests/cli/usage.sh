@@ -48,6 +48,7 @@ for case in \
     "the nearest is 'planes'|render a --stepper plane" \
     "--driver reference does not|render a --stepper planes --driver reference" \
     "--stepper planes does not|render a --stepper planes --audit" \
+    "--driver reference does not do|render a --audit --driver reference" \
     "the nearest is 'convexify'|render a --reentry convex" \
     "each from 2 to 1024|render a --table-size 1,128,256" \
     "--table-size takes|render a --table-size 128,128" \
