@@ -61,6 +61,11 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
     }
     gl->ClearBufferfv(GL_DEPTH, 0, &far_depth);
 
+    if (!job->peel) {
+        const GLuint none = 0;
+        gl->BindBufferBase(GL_ATOMIC_COUNTER_BUFFER, 0, job->entry_counter);
+        gl->BufferData(GL_ATOMIC_COUNTER_BUFFER, sizeof none, &none, GL_DYNAMIC_READ);
+    }
     gl->UseProgram(program);
     gl->BindVertexArray(job->hit_array);
     if (layer == 0)

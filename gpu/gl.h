@@ -13,6 +13,8 @@
     X(PFNGLATTACHSHADERPROC, AttachShader)                                                                             \
     X(PFNGLBEGINQUERYPROC, BeginQuery)                                                                                 \
     X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                                 \
+    X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                         \
+    X(PFNGLBINDBUFFERRANGEPROC, BindBufferRange)                                                                       \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                                       \
     X(PFNGLBINDIMAGETEXTUREPROC, BindImageTexture)                                                                     \
     X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                                                                     \
@@ -61,6 +63,8 @@
     X(PFNGLGENTEXTURESPROC, GenTextures)                                                                               \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                                       \
     X(PFNGLGETBOOLEANVPROC, GetBooleanv)                                                                               \
+    X(PFNGLGETBUFFERSUBDATAPROC, GetBufferSubData)                                                                     \
+    X(PFNGLGETINTEGER64I_VPROC, GetInteger64i_v)                                                                       \
     X(PFNGLGETBOOLEANI_VPROC, GetBooleani_v)                                                                           \
     X(PFNGLGETERRORPROC, GetError)                                                                                     \
     X(PFNGLGETFLOATVPROC, GetFloatv)                                                                                   \

@@ -17,6 +17,7 @@ typedef struct tc_job {
     const tc_frame *frame;
     const tc_proposals *proposals; /* of this frame */
     GLuint hit_array, hit_buffer;  /* vertex array and buffer for them */
+    GLuint entry_counter;          /* buffer of first_hit.frag's atomic counter */
     GLuint screen_array;           /* an empty vertex array */
 
     tc_integrator integrator;                    /* TABLE or INTEGRAL */
@@ -46,6 +47,7 @@ typedef struct tc_job_result {
     double ms_first_hit, ms_march;
     int passes, z_updates, layers;
     int64_t rays, rays_lost;
+    int64_t twice;      /* without peeling: entries beyond the first of their rays; if there are any, nothing was marched */
     int64_t *fragments; /* [passes], only when counting; caller frees */
 } tc_job_result;
 

@@ -229,6 +229,14 @@ static tc_status march_layer(loop *l)
         return status;
     if (l->result->layers == 0)
         l->result->rays = l->open;
+    if (!job->peel) {
+        GLuint entries = 0;
+        gl->BindBuffer(GL_ATOMIC_COUNTER_BUFFER, job->entry_counter);
+        gl->GetBufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof entries, &entries);
+        l->result->twice = (int64_t)entries - l->open;
+        if (l->result->twice > 0)
+            return TC_OK; /* not this way */
+    }
     l->result->layers++;
     l->entered = l->open;
     int interval = job->z_update_every > 0 ? job->z_update_every : 2, since = 0, ahead = 0;
@@ -307,7 +315,7 @@ tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err
         int before = out->layers;
         status = march_layer(&l);
         if (status != TC_OK || out->layers == before)
-            break; /* no ray entered */
+            break; /* no ray entered, or some more than once */
         if (job->planes) /* with peeling, a ray counts for each entry from which it is lost */
             out->rays_lost += count_given_up(&l);
         if (l.open > 0) {

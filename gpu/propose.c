@@ -1,8 +1,10 @@
 /* propose.c: boundary faces as enlarged screen polygons.
  *
  * A triangle with no sharp corner is enlarged by moving its edges out by a margin (three corners still); a small one
- * becomes the rectangle around it; a long thin one its triangle and a quad about each edge, since moved edges would
- * meet far away. The set of proposed pixels is always larger than that of the rays through the face.
+ * becomes the rectangle around it; a long thin one what a square covers that slides over it, since moved edges would
+ * meet far away. No pixel is proposed twice for one face, or for one part
+ * of a face that is cut (below). The set of proposed pixels is
+ * always larger than that of the rays through the face.
  *
  * A line through the eye meets a face before the eye or, where the eye is in the mesh, behind it: behind, the face is
  * seen through the eye, turned by half a turn, at the same place x/w, y/w. A face that crosses the eye's plane, or
@@ -19,8 +21,8 @@
 #include <string.h>
 
 enum {
-    MOST_CUT = 13,                                          /* corners of a triangle cut by four planes: see cut */
-    MOST_CORNERS = 2 * (3 * (MOST_CUT - 2) + 6 * MOST_CUT), /* that one face may need */
+    MOST_CUT = 13,                       /* corners of a triangle cut by four planes: see cut */
+    MOST_CORNERS = 2 * 3 * 4 * MOST_CUT, /* that one face may need */
 };
 static const float MARGIN = 0.0625f;  /* pixels: how far a face is enlarged beside its rounding error */
 static const float ROUNDING = 1e-6f;  /* of clip coordinates, relative to their terms */
@@ -66,16 +68,6 @@ static void add_screen(tc_proposals *out, const screen *s, int32_t face)
     add_triangle(out, s, face, (point){0, 0}, (point){2 * s->width, 0}, (point){0, 2 * s->height});
 }
 
-/* p, q moved out by the margin to the right of p→q: the line's unit normal and direction. */
-static void add_edge(tc_proposals *out, const screen *s, int32_t face, point p, point q)
-{
-    float x = q.x - p.x, y = q.y - p.y, l = sqrtf(x * x + y * y);
-    x = l > 0 ? s->margin * x / l : s->margin;
-    y = l > 0 ? s->margin * y / l : 0;
-    add_quad(out, s, face, (point){p.x - x + y, p.y - y - x}, (point){q.x + x + y, q.y + y - x},
-             (point){q.x + x - y, q.y + y + x}, (point){p.x - x - y, p.y - y + x});
-}
-
 static float cross(point a, point b)
 {
     return a.x * b.y - a.y * b.x;
@@ -98,6 +90,39 @@ static point mitre(const screen *s, point p, point before, point after)
     float sine = cross(before, after); /* > MITRE_SIN */
     float k = s->margin / sine;
     return (point){p.x + k * (before.x - after.x), p.y + k * (before.y - after.y)};
+}
+
+static int point_compare(const void *a, const void *b)
+{
+    const point *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return p->y < q->y ? -1 : p->y > q->y;
+}
+
+/* The hull of the squares about the corners: what a square that slides over the polygon covers. Without overlap, so
+ * that no pixel is proposed twice. (Andrew's monotone chain, 1979.) */
+static void add_hull(tc_proposals *out, const screen *s, int32_t face, const point *p, int n_point)
+{
+    point corner[4 * MOST_CUT], hull[8 * MOST_CUT];
+    int n_corner = 4 * n_point;
+    for (int i = 0; i < n_corner; i++)
+        corner[i] =
+            (point){p[i / 4].x + (i & 1 ? s->margin : -s->margin), p[i / 4].y + (i & 2 ? s->margin : -s->margin)};
+    qsort(corner, (size_t)n_corner, sizeof *corner, point_compare);
+    int n = 0;
+    for (int side = 0; side < 2; side++) {
+        int first = n;
+        for (int i = 0; i < n_corner; i++) {
+            point c = corner[side ? n_corner - 1 - i : i];
+            while (n - first >= 2 && cross(minus(hull[n - 1], hull[n - 2]), minus(c, hull[n - 2])) <= 0)
+                n--;
+            hull[n++] = c;
+        }
+        n--; /* begins the other side */
+    }
+    for (int i = 2; i < n; i++)
+        add_triangle(out, s, face, hull[0], hull[i - 1], hull[i]);
 }
 
 static void propose_face(tc_proposals *out, const screen *s, int32_t face, const point p[3])
@@ -137,9 +162,7 @@ static void propose_face(tc_proposals *out, const screen *s, int32_t face, const
     } else if (hi_x - lo_x < SMALL || hi_y - lo_y < SMALL) {
         add_quad(out, s, face, (point){lo_x, lo_y}, (point){hi_x, lo_y}, (point){hi_x, hi_y}, (point){lo_x, hi_y});
     } else {
-        add_triangle(out, s, face, p[0], p[1], p[2]);
-        for (int i = 0; i < 3; i++)
-            add_edge(out, s, face, p[i], p[(i + 1) % 3]);
+        add_hull(out, s, face, p, 3);
     }
 }
 
@@ -225,10 +248,7 @@ static bool propose_part(tc_proposals *out, screen *s, int32_t face, const place
         return false;
     if (area < -1 - (0.02f + 4 * s->margin) * (around + s->margin))
         return false; /* clearly looks away */
-    for (int i = 2; i < n; i++)
-        add_triangle(out, s, face, at[0], at[i - 1], at[i]);
-    for (int i = 0; i < n; i++)
-        add_edge(out, s, face, at[i], at[(i + 1) % n]);
+    add_hull(out, s, face, at, n);
     return false;
 }
 

@@ -28,7 +28,7 @@ struct tc_gpu_renderer {
     tc_context *context;
     tc_program_cache *programs;
     GLuint vertex_array[2]; /* empty; first hits */
-    GLuint hit_buffer;
+    GLuint hit_buffer, entry_counter;
     int threads;
 
     uint64_t mesh_serial, scalar_serial; /* of what is uploaded; 0: nothing */
@@ -61,6 +61,7 @@ tc_status tc_gpu_renderer_create(tc_gpu_renderer **out, const char *name, tc_get
     if (status == TC_OK) {
         r->context->gl.GenVertexArrays(2, r->vertex_array);
         r->context->gl.GenBuffers(1, &r->hit_buffer);
+        r->context->gl.GenBuffers(1, &r->entry_counter);
     }
     if (status != TC_OK) {
         tc_gpu_renderer_destroy(&r);
@@ -83,6 +84,7 @@ void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer)
         tc_program_cache_destroy(&r->programs);
         gl->DeleteVertexArrays(2, r->vertex_array);
         gl->DeleteBuffers(1, &r->hit_buffer);
+        gl->DeleteBuffers(1, &r->entry_counter);
     }
     tc_context_destroy(&r->context);
     tc_proposals_finish(&r->proposals);
@@ -264,6 +266,33 @@ static void fill_stats(tc_render_stats *stats, tc_gpu_renderer *r, const tc_job 
     stats->ms_march = result->ms_march;
 }
 
+/* Steps are read as a whole, also where nothing is drawn. */
+static void clear_steps(const tc_job *job)
+{
+    const GLuint none[4] = {0, 0, 0, 0};
+    if (!job->count)
+        return;
+    job->gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->set[0].framebuffer);
+    job->gl->ClearBufferuiv(GL_COLOR, 3, none);
+}
+
+/* The frame again by peeling: rounding may fold a convex hull, so that a ray along its side enters it more than once.
+ */
+static tc_status peel_frame(tc_job_result *result, tc_gpu_renderer *r, tc_job *job, const tc_render_options *options,
+                            tc_error *err)
+{
+    const tc_gl *gl = job->gl;
+    job->peel = true;
+    gl->Disable(GL_SCISSOR_TEST);
+    tc_status status = ensure_state(r, options, true, err);
+    if (status == TC_OK) {
+        clear_steps(job);
+        status = tc_pingpong_compile(job, err);
+    }
+    gl->Enable(GL_SCISSOR_TEST);
+    return status == TC_OK ? tc_pingpong_frame(result, job, err) : status;
+}
+
 tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu_frame *frame, tc_error *err)
 {
     r->audited = false;
@@ -328,12 +357,9 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.screen_array = r->vertex_array[0];
     job.hit_array = r->vertex_array[1];
     job.hit_buffer = r->hit_buffer;
+    job.entry_counter = r->entry_counter;
 
-    if (job.count) { /* steps are read as a whole */
-        const GLuint none[4] = {0, 0, 0, 0};
-        gl->BindFramebuffer(GL_FRAMEBUFFER, r->state.set[0].framebuffer);
-        gl->ClearBufferuiv(GL_COLOR, 3, none);
-    }
+    clear_steps(&job);
     status = tc_pingpong_compile(&job, err);
     if (status != TC_OK)
         return status;
@@ -348,6 +374,11 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     set_scissor(gl, r->proposals.rect);
     if (status == TC_OK)
         status = tc_pingpong_frame(&result, &job, err);
+    if (status == TC_OK && result.twice > 0) {
+        tc_say(frame->log, TC_DEBUG, "%lld further entries into the hull, where rounding folds it: the frame is peeled",
+               (long long)result.twice);
+        status = peel_frame(&result, r, &job, options, err);
+    }
     result.ms_first_hit += ms_propose;
     if (status == TC_OK)
         status = resolve(r, &job, err);

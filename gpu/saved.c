@@ -50,6 +50,10 @@ void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
     gl->GetIntegerv(GL_BLEND_EQUATION_ALPHA, &s->blend_equation_alpha);
     gl->GetIntegerv(GL_ARRAY_BUFFER_BINDING, &s->array_buffer);
     gl->GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &s->pack_buffer);
+    gl->GetIntegerv(GL_ATOMIC_COUNTER_BUFFER_BINDING, &s->counter_buffer);
+    gl->GetIntegeri_v(GL_ATOMIC_COUNTER_BUFFER_BINDING, 0, &s->counter_bound);
+    gl->GetInteger64i_v(GL_ATOMIC_COUNTER_BUFFER_START, 0, &s->counter_start);
+    gl->GetInteger64i_v(GL_ATOMIC_COUNTER_BUFFER_SIZE, 0, &s->counter_size);
     gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &s->unpack_buffer);
     gl->GetIntegerv(GL_POLYGON_MODE, s->polygon_mode);
     gl->GetFloatv(GL_DEPTH_RANGE, s->depth_range);
@@ -121,6 +125,12 @@ void tc_gl_restore(const tc_gl_saved *s, const tc_gl *gl)
     for (int i = 0; i < TC_SAVED_STORES; i++)
         gl->PixelStorei(stores[i].name, s->store[i]);
     gl->BindBuffer(GL_ARRAY_BUFFER, (GLuint)s->array_buffer);
+    if (s->counter_size > 0) /* 0: as a whole, or nothing */
+        gl->BindBufferRange(GL_ATOMIC_COUNTER_BUFFER, 0, (GLuint)s->counter_bound, (GLintptr)s->counter_start,
+                            (GLsizeiptr)s->counter_size);
+    else
+        gl->BindBufferBase(GL_ATOMIC_COUNTER_BUFFER, 0, (GLuint)s->counter_bound);
+    gl->BindBuffer(GL_ATOMIC_COUNTER_BUFFER, (GLuint)s->counter_buffer);
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)s->pack_buffer);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);
     gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);

@@ -12,6 +12,8 @@ typedef struct tc_gl_saved {
     GLint unit_2d[TC_SAVED_UNITS], unit_1d[TC_SAVED_UNITS], unit_3d[TC_SAVED_UNITS], unit_buffer[TC_SAVED_UNITS],
         unit_sampler[TC_SAVED_UNITS];
     GLint array_buffer, pack_buffer, unpack_buffer;
+    GLint counter_buffer, counter_bound; /* atomic counters: the general binding, and binding 0 with its range */
+    GLint64 counter_start, counter_size;
     GLint depth_func, blend_src_rgb, blend_dst_rgb, blend_src_alpha, blend_dst_alpha, blend_equation_rgb,
         blend_equation_alpha, polygon_mode[2];
     GLint store[TC_SAVED_STORES]; /* of saved.c's list */

@@ -13,6 +13,9 @@ uniform sampler2D state_color; // to leave out rays that ended by opacity
 uniform float transmittance_stop;
 layout(location = 2) out ivec2 out_key;
 #endif
+#ifndef PEEL
+layout(binding = 0, offset = 0) uniform atomic_uint entries; // all that survive, whether the first or not
+#endif
 layout(location = 0) out ivec4 out_walk;
 layout(location = 1) out vec2 out_at;
 
@@ -51,6 +54,9 @@ void main()
     if (before.y > 0 && state_transmittance(texelFetch(state_color, pixel, 0)) <= transmittance_stop)
         discard;
     out_key = mine;
+#endif
+#ifndef PEEL
+    atomicCounterIncrement(entries);
 #endif
     gl_FragDepth = intBitsToFloat(key); // the bits of a positive float sort as it does
     out_walk = ivec4(w.cell, w.id);
