@@ -7,7 +7,7 @@
 #   make valgrind   what needs no GL under Valgrind's memcheck, in build/valgrind
 #   make hard       the hard cases at length: 100 million rays, beside VTK's renderers; tables in build/hard-cases
 #   make fuzz       FUZZ_SECONDS (60) of random inputs for each part that reads what others wrote; FUZZ_TARGETS=… for some
-#   make bench      measure, side by side with VTK
+#   make bench      measure, side by side with VTK; what exact signs cost
 #   make docs       the figures in docs/images, and the manual pages as HTML in build/docs
 #   make install    to PREFIX (/usr/local), below DESTDIR
 #   make clean
@@ -100,6 +100,7 @@ bench: all
 	cmake --build $(BUILD) -j $(JOBS) --target bench_table
 	$(BUILD)/bench_table
 	/usr/bin/python3 tests/bench/bench.py $(BENCH_ARGS)
+	sh tests/hard/cost.sh $(BUILD)/tetcast gpu/shaders
 
 docs: all
 	@$(call packages,$(DOCS_PACKAGES))

@@ -20,7 +20,8 @@ if ! "$c" -fsanitize=fuzzer,address,undefined -o "$build/probe" "$build/probe.c"
     echo "$c has no libFuzzer, so the fuzz targets are not built (Debian: libclang-rt-14-dev)"
     exit 0
 fi
-if [ ! -f "$build/build.ninja" ]; then
+# Configured again when WERROR is another than the last time.
+if [ ! -f "$build/build.ninja" ] || ! grep -q "^TC_WERROR:[A-Z]*=${WERROR:-OFF}\$" "$build/CMakeCache.txt"; then
     cmake -S "$source" -B "$build" -G Ninja -DTC_FUZZ=ON -DTC_WERROR="${WERROR:-OFF}" -DCMAKE_BUILD_TYPE=None \
         -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" >"$build/configure.log" 2>&1 || {
         cat "$build/configure.log"

@@ -1,7 +1,11 @@
 #!/bin/sh
-# broken.sh HARD SHADERS [VARIANT...] [-- OPTIONS]: the catalogue against shaders that are broken on purpose (variant.sh):
-# each must fail. One row a variant: cases that failed, by what was noticed first in each, and some of their meshes.
-# OPTIONS go to hard (--filter TEXT, --size N, …). Exit 0: every variant was caught; 1: one was not.
+# broken.sh HARD SHADERS [VARIANT...] [-- OPTIONS]: the catalogue against shaders broken on purpose (variant.sh):
+# each must fail. One row a variant: how many cases failed; of these, in how many the renderer reported lost rays, or
+# cells of which other than two faces hold the ray; a ray did not visit the cells of brute force; a ray's length in the
+# mesh was wrong; a pixel was wrong (by the reference, an analytic chord, its own range, or beside another picture of the
+# same thing). A case counts in each column that it belongs to. Last, some of the meshes.
+# OPTIONS go to hard (--filter TEXT, --size N, …). Exit 0: every variant was caught, by one of these at least; 1: one was
+# not, or its shaders do not compile; 77: the context is missing.
 set -eu
 hard=$1 shaders=$2
 shift 2
@@ -38,14 +42,21 @@ for variant in $variants; do
         tail -n 3 "$work/said" >&2
         ;;
     esac
+    # A shader that does not compile fails every case, and shows nothing.
+    if grep -Eq 'shader [a-z_]+[.][a-z]+:|linking [a-z_]+[.]vert and ' "$work/said"; then
+        missed=1
+        echo "broken.sh: $variant does not compile" >&2
+        grep -Em 1 'shader |linking ' "$work/said" >&2
+        continue
+    fi
     awk -v variant="$variant" '
         /^FAILED [^0-9]/ {
             failed++
             lost += /rays were lost/
-            held += /other than two faces/
-            cells += /other cells|brute force/
-            lengths += /length/
-            pictures += /pixel|alpha/
+            held += /other than two faces held/
+            cells += /do not visit the cells of brute force|visit other cells than/
+            lengths += /a ray.s length in real cells is|a ray.s length is wrong/
+            pictures += /pixel [0-9]+, [0-9]+ is|alpha is|pixels differ|colour exceeds/
             sub(/^FAILED /, "")
             split($0, part, ";")
             if (!(part[1] in seen) && n++ < 6)
@@ -55,6 +66,10 @@ for variant in $variants; do
         END {
             printf "| %s | %d | %d | %d | %d | %d | %d | %s%s |\n", variant, failed, lost, held, cells, lengths, pictures,
                 names, (n > 6 ? " and " (n - 6) " more" : "")
-        }' "$work/said"
+            exit !(lost + held + cells + lengths + pictures)
+        }' "$work/said" || {
+        missed=1
+        echo "broken.sh: $variant is not caught: no case failed for one of these reasons" >&2
+    }
 done
 exit $missed

@@ -45,6 +45,20 @@ static hard_case plain(size_t view, size_t function)
     return c;
 }
 
+/* The view's number; views past the last: there is none of that name. */
+static size_t view_named(const char *name)
+{
+    size_t v = 0;
+    while (v < hard_view_count() && strcmp(hard_view_name(v), name) != 0)
+        v++;
+    return v;
+}
+
+static bool has_cavity(const char *mesh)
+{
+    return !strcmp(mesh, "shells") || !strcmp(mesh, "cavities") || !strcmp(mesh, "cavity-nested");
+}
+
 static size_t short_cases(hard_case *out, size_t index, bool gpu)
 {
     size_t n = 0, views = hard_view_count() - 2; /* the last is large, the one before it seldom tells */
@@ -54,6 +68,8 @@ static size_t short_cases(hard_case *out, size_t index, bool gpu)
     out[n++].integrator = gpu && index % 4 == 0 ? TC_INTEGRATOR_TABLE : TC_INTEGRATOR_INTEGRAL;
     out[n] = plain(index % 2 ? VIEW_OBLIQUE : VIEW_FRONT, FUNCTION_SMOOTH);
     out[n++].relation = 1 + (int)(index % (HARD_RELATIONS - 1));
+    if (has_cavity(hard_catalogue_mesh(index))) /* the turns above seldom meet */
+        out[n++] = plain(view_named("eye in a cavity"), FUNCTION_SMOOTH);
     return n;
 }
 

@@ -1,6 +1,7 @@
 #!/bin/sh
 # cost.sh TETCAST SHADERS [RUNS]: what exact signs cost: frame times with them against plain float signs (variant.sh,
-# float-signs), alternating, medians of RUNS (9) runs of 15 frames each. Real data where it is at hand, else synthetic.
+# float-signs), alternating, medians of RUNS (9) runs of 15 frames each. Real data where it is at hand, else synthetic. GL is
+# whatever `tetcast render` finds in the environment: the figures are of that device.
 set -eu
 tetcast=$1 shaders=$2 runs=${3:-9}
 here=$(dirname "$0")
@@ -29,6 +30,10 @@ for input in "$real" synth:bluntfin synth:heatsink synth:kuhn; do
             frame float "$input" $azimuth >>"$work/float.txt"
             i=$((i + 1))
         done
+        if [ ! -s "$work/exact.txt" ] || grep -q 'error: shader ' "$work/said"; then
+            cat "$work/said" >&2
+            exit 1
+        fi
         if [ ! -s "$work/float.txt" ]; then
             printf '%-28s %s\n' "$(basename "$input") at $azimuth" "float: $(sed 's/.*error: //; s/;.*//' "$work/said")"
             continue

@@ -50,6 +50,7 @@ typedef struct probe {
     hard_walk walk;
     double all, real; /* errors of the walk's lengths, in diagonals */
     double walk_real; /* the same against exact arithmetic on the floats that the walk sees */
+    bool thin;        /* its true length is not asked for */
     bool wrong, ill, failed;
 } probe;
 
@@ -57,7 +58,7 @@ typedef struct force {
     const hard_mesh *mesh;
     const hard_picture *picture;
     tc_frame frame;
-    bool exact, grazing;
+    bool exact;
     probe *probe;
 } force;
 
@@ -87,7 +88,7 @@ static void judge_ray(const force *f, probe *p, int worker)
     p->wrong = f->exact && p->walk.doubt == 0 && (p->walk.cells != audit->cells || p->walk.hash != audit->hash);
     if (f->exact && p->walk.doubt == 0 && !p->wrong)
         p->walk_real = fabs(audit->length_real - p->walk.length_real) / m->diagonal;
-    if (f->grazing)
+    if (p->thin)
         return;
     p->all = fabs(audit->length - all) / m->diagonal;
     p->real = fabs(audit->length_real - real) / m->diagonal;
@@ -106,35 +107,56 @@ static void judge_range(void *context, size_t begin, size_t end, int worker)
         judge_ray(f, &f->probe[i], worker);
 }
 
-/* A pixel of the picture; of every two one whose ray meets the mesh, if such can be found. */
-static size_t choose(const hard_picture *p, uint64_t *state, bool hit)
+/* One of n pixels, `step` apart from `first` on; with `hit`, one whose ray meets the mesh, if such can be found. */
+static size_t choose(const hard_picture *p, uint64_t *state, size_t first, size_t step, size_t n, bool hit)
 {
-    size_t n = (size_t)p->image->width * (size_t)p->image->height, pixel = 0;
+    size_t pixel = first;
     for (int i = 0; i < (hit ? 200 : 1); i++) {
         *state = *state * 6364136223846793005u + 1442695040888963407u;
-        pixel = (size_t)((*state >> 20) % n);
+        pixel = first + step * (size_t)((*state >> 20) % n);
         if (p->audit[pixel].cells > 0)
             break;
     }
     return pixel;
 }
 
-/* Invariants 1 and 2. */
+enum { LINE = 8, MIDDLE_MOST = 1 + 2 * LINE };
+
+/* What most views are made for: the middle pixel, and some of the middle row and column (none of one pixel's). out
+ * [MIDDLE_MOST]; gives their number. */
+static size_t choose_middle(probe *out, const hard_picture *p, uint64_t *state)
+{
+    size_t width = (size_t)p->image->width, height = (size_t)p->image->height, n = 0;
+    size_t row = height / 2 * width, column = width / 2;
+    out[n++].pixel = row + column;
+    for (int i = 0; i < LINE && width > 1; i++)
+        out[n++].pixel = choose(p, state, row, 1, width, true);
+    for (int i = 0; i < LINE && height > 1; i++)
+        out[n++].pixel = choose(p, state, column, width, height, true);
+    return n;
+}
+
+/* Invariants 1 and 2: of random pixels three in four meet the mesh if they can. The middle ones lie in vertices, edges
+ * and faces on purpose, where true lengths jump: they are judged by the walk's cells and its own length alone. */
 static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_mesh *mesh, const hard_view *view,
                            const hard_picture *picture)
 {
     size_t n = bench->judged, pixels = (size_t)picture->image->width * (size_t)picture->image->height;
-    force f = {.mesh = mesh, .picture = picture, .exact = bench->exact, .grazing = view->grazing};
+    force f = {.mesh = mesh, .picture = picture, .exact = bench->exact};
     n = n < pixels ? n : pixels;
-    f.probe = tc_calloc(n, sizeof *f.probe);
+    f.probe = tc_calloc(n + MIDDLE_MOST, sizeof *f.probe);
     if (!f.probe) {
         hard_fail(r, "out of memory");
         return;
     }
     hard_judge_frame(&f.frame, mesh->judge, &picture->rays);
     uint64_t state = 12345;
-    for (size_t i = 0; i < n; i++)
-        f.probe[i].pixel = choose(picture, &state, i % 4 != 0);
+    for (size_t i = 0; i < n; i++) {
+        f.probe[i].pixel = choose(picture, &state, 0, 1, pixels, i % 4 != 0);
+        f.probe[i].thin = view->grazing;
+    }
+    for (size_t n_middle = choose_middle(f.probe + n, picture, &state); n_middle > 0; n_middle--)
+        f.probe[n++].thin = true;
     tc_parallel_for(n, 4, 0, judge_range, &f);
     const probe *wrong = NULL;
     size_t broken = 0, failed = 0;
@@ -142,6 +164,7 @@ static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_m
         const probe *p = &f.probe[i];
         failed += p->failed;
         r->judged++;
+        r->lengths += !p->thin;
         r->doubtful += p->walk.doubt > 0;
         r->cycles += p->walk.cycle > 0;
         broken += p->walk.broken > 0;
@@ -277,6 +300,24 @@ static bool make_picture(hard_picture *out, hard_result *r, const hard_bench *be
     return true;
 }
 
+/* Once more with a table of floats: nothing in it is rounded much (invariant 10). */
+static void judge_float_table(hard_result *r, const hard_picture *picture, tc_renderer *renderer, const hard_mesh *mesh,
+                              const hard_view *view, const hard_function *function)
+{
+    tc_error err = {0};
+    tc_image *image = NULL;
+    tc_render_options o = picture->options;
+    char what[160];
+    o.table_format = TC_TABLE_32F;
+    o.table_size[0] = o.table_size[1] = o.table_size[2] = 64;
+    o.audit = false;
+    if (tc_render(&image, NULL, renderer, mesh->mesh, function->tf, &view->camera, &o, NULL, &err) != TC_OK)
+        hard_fail(r, "with a table of floats: %s", err.text);
+    else if (!picture_is_sane(what, sizeof what, image, function->tf, NULL, HARD_EXCESS))
+        hard_fail(r, "with a table of floats: %s", what);
+    tc_image_destroy(&image);
+}
+
 void hard_judge_case(hard_picture *out, hard_result *r, const hard_bench *bench, tc_renderer *renderer,
                      const hard_mesh *mesh, const hard_view *view, const hard_function *function,
                      tc_integrator integrator)
@@ -290,8 +331,10 @@ void hard_judge_case(hard_picture *out, hard_result *r, const hard_bench *bench,
     bool table = integrator == TC_INTEGRATOR_TABLE;
     if (make_picture(p, r, bench, renderer, mesh, view, function, integrator)) {
         char what[160];
-        if (!picture_is_sane(what, sizeof what, p->image, function->tf, NULL, HARD_PICTURE))
+        if (!picture_is_sane(what, sizeof what, p->image, function->tf, NULL, table ? HARD_EXCESS_HALF : HARD_EXCESS))
             hard_fail(r, "%s", what);
+        if (bench->gpu && table)
+            judge_float_table(r, p, renderer, mesh, view, function);
         if (bench->gpu)
             judge_by_force(r, bench, mesh, view, p);
         if (function->kappa >= 0 && view->whole && !view->grazing && mesh->kind == HARD_PLAIN && mesh->generator->chord)

@@ -4,8 +4,8 @@
  *        [--long]                         every view and function with every mesh, larger pictures
  *        [--filter TEXT]                  only cases whose name ("mesh; view; function; relation") holds TEXT
  *        [--list]                         print the cases' names and end
- *        [--size N] [--judged N] [--verified N]   pixels a side; rays by brute force and pixels by the reference, each
- * case
+ *        [--size N] [--judged N] [--verified N]   pixels a side; random rays by brute force and pixels by the
+ * reference, each case
  *        [--blind N]                      the judge overlooks cell N: the run must fail
  *        [--json FILE] [--table FILE.md] [--write DIR] [--export DIR]
  *
@@ -24,6 +24,7 @@
 typedef struct settings {
     const char *context, *filter, *json, *table, *export;
     bool long_run, list;
+    bool small; /* smaller pictures than usual were asked for: fewer rays */
     int size;
     size_t blind;
     hard_bench bench;
@@ -77,8 +78,10 @@ static bool parse(settings *s, int argc, char **argv)
             return false;
         i++;
     }
+    const int usual = s->long_run ? 192 : 96;
     if (!s->size)
-        s->size = s->long_run ? 192 : 96;
+        s->size = usual;
+    s->small = s->size < usual;
     if (!s->bench.judged)
         s->bench.judged = s->long_run ? 256 : 64;
     if (!s->bench.verified)
@@ -196,22 +199,52 @@ static bool too_many(const char *what, size_t ill, size_t n)
     return true;
 }
 
+/* A whole run must hold what the catalogue promises. */
+static bool too_few(const session *run)
+{
+    const settings *s = run->s;
+    size_t used[3], rays = (size_t)hard_table_total(run->table)->sum.rays;
+    const struct {
+        const char *what;
+        size_t least;
+    } promised[] = {{"meshes", 60}, {"views", 20}, {"functions", 12}};
+    bool bad = false;
+    if (s->filter)
+        return false;
+    hard_table_used(used, run->table);
+    printf("  %zu meshes, %zu views and %zu functions gave pictures\n", used[0], used[1], used[2]);
+    for (size_t i = 0; i < sizeof promised / sizeof *promised; i++)
+        if (used[i] < promised[i].least) {
+            fprintf(stderr, "FAILED %zu %s gave pictures, fewer than %zu\n", used[i], promised[i].what,
+                    promised[i].least);
+            bad = true;
+        }
+    size_t least = s->long_run ? 100000000 : 2000000;
+    if (s->bench.gpu && !s->small && rays < least) {
+        fprintf(stderr, "FAILED %zu rays are fewer than %zu\n", rays, least);
+        bad = true;
+    }
+    return bad;
+}
+
 static bool summarise(const session *run)
 {
     const hard_row *t = hard_table_total(run->table);
     const hard_result *r = &t->sum;
-    printf(
-        "%s: %zu cases, %lld rays, %lld lost; %zu rays by brute force, %zu with other cells, %zu with closed paths\n"
-        "  worst: length %.1e, real length %.1e diagonals (%zu ill-posed), %.1e from exact weights; picture %.1e of %zu pixels (%zu ill-posed); "
-        "alpha %.1e of %zu (%zu ill-posed); the same picture %.1e of %zu pixels (%zu ill-posed)\n"
-        "  %zu meshes or functions refused, %zu cases failed\n",
-        run->s->context, t->cases, (long long)r->rays, (long long)r->lost, r->judged, r->wrong, r->cycles,
-        r->length_error, r->real_error, r->ill_length, r->walk_error, r->picture_error, r->pixels, r->ill_posed, r->alpha_error,
-        r->chords, r->ill_chord, r->difference, r->compared, r->ill_compared, t->refused, t->failed);
-    bool bad = too_many("lengths", r->ill_length, r->judged);
+    printf("%s: %zu cases, %lld rays, %lld lost; %zu rays by brute force, %zu with other cells, %zu with closed paths\n"
+           "  worst: length %.1e, real length %.1e diagonals (%zu ill-posed), %.1e from exact weights; picture %.1e of "
+           "%zu pixels (%zu ill-posed); "
+           "alpha %.1e of %zu (%zu ill-posed); the same picture %.1e of %zu pixels (%zu ill-posed)\n"
+           "  %zu meshes or functions refused, %zu cases failed\n",
+           run->s->context, t->cases, (long long)r->rays, (long long)r->lost, r->judged, r->wrong, r->cycles,
+           r->length_error, r->real_error, r->ill_length, r->walk_error, r->picture_error, r->pixels, r->ill_posed,
+           r->alpha_error, r->chords, r->ill_chord, r->difference, r->compared, r->ill_compared, t->refused, t->failed);
+    bool bad = r->lost > 0 || r->broken > 0;
+    bad = too_many("lengths", r->ill_length, r->lengths) || bad;
     bad = too_many("pixels", r->ill_posed, r->pixels) || bad;
     bad = too_many("analytic chords", r->ill_chord, r->chords) || bad;
     bad = too_many("compared pixels", r->ill_compared, r->compared) || bad;
+    bad = too_few(run) || bad;
     return t->cases > 0 && t->failed == 0 && !bad;
 }
 

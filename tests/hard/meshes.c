@@ -9,7 +9,7 @@
 #include <string.h>
 
 const char *const hard_kind_name[HARD_KINDS] = {"plain",      "permuted",  "refined 1:4", "refined 1:8", "turned",
-                                                "size 2^-66", "size 2^66", "offset 1e7",  "other gaps"};
+                                                "size 1e-20", "size 1e20", "offset 1e7",  "other gaps"};
 
 static tc_status give_judges(hard_mesh *m, tc_error *err)
 {
@@ -93,7 +93,7 @@ tc_status hard_mesh_vary(hard_mesh *out, const hard_mesh *base, hard_kind kind, 
     out->n_cells = base->n_cells;
     out->kind = kind;
     memcpy(out->turn, base->turn, sizeof out->turn);
-    out->scale = kind == HARD_SMALL ? 0x1p-66 : kind == HARD_LARGE ? 0x1p66 : 1;
+    out->scale = kind == HARD_SMALL ? 1e-20 : kind == HARD_LARGE ? 1e20 : 1;
     if (kind == HARD_TURNED)
         turn_matrix(out->turn);
     for (int k = 0; k < 3 && kind == HARD_OFFSET; k++)

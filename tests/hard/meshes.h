@@ -13,8 +13,8 @@ typedef enum hard_kind {
     HARD_REFINED4,
     HARD_REFINED8,
     HARD_TURNED,     /* about an axis that is none of the grid's */
-    HARD_SMALL,      /* 2^-66 times, about 1e-20 */
-    HARD_LARGE,      /* 2^66 times */
+    HARD_SMALL,      /* 1e-20 times */
+    HARD_LARGE,      /* 1e20 times */
     HARD_OFFSET,     /* 1e7 diagonals away along every axis */
     HARD_OTHER_GAPS, /* peeled where the plain one is convexified */
     HARD_KINDS

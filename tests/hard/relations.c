@@ -59,7 +59,12 @@ void hard_judge_relation(hard_result *r, const hard_bench *bench, int relation, 
     snprintf(r->mesh, sizeof r->mesh, "%s", mesh->name);
     r->rays += first.rays;
     r->lost += first.lost;
-    if (plain.image && other.image)
+    r->broken += first.broken;
+    if (first.failure[0])
+        hard_fail(r, "before the change: %s", first.failure);
+    if (!plain.image || !other.image)
+        hard_fail(r, "there is no picture %s the change", plain.image ? "after" : "before");
+    else
         hard_compare(r, &plain, &other, relation == HARD_REVERSED, mesh, function);
     if (plain.audit && other.audit && relation == HARD_OTHER_CONTEXT && bench->exact)
         compare_walks(r, &plain, &other);

@@ -36,6 +36,11 @@ say "beside VTK's renderers"
 if "$build/hard" --context osmesa --export "$out/export"; then
     xvfb-run -a /usr/bin/python3 "$here/peers.py" "$out/export" --table "$out/peers.md" --json "$out/peers.json" ||
         status=1
+else
+    [ $? -eq 77 ] || status=1
 fi
+say "what exact signs cost"
+sh "$here/cost.sh" "$build/tetcast" "$here/../../gpu/shaders" >"$out/cost.txt" || status=1
+cat "$out/cost.txt"
 say "tables are in $out"
 exit $status

@@ -75,6 +75,7 @@ static void add_result(hard_row *row, const hard_result *r)
     s->wrong += r->wrong;
     s->doubtful += r->doubtful;
     s->cycles += r->cycles;
+    s->lengths += r->lengths;
     s->ill_length += r->ill_length;
     s->pixels += r->pixels;
     s->ill_posed += r->ill_posed;
@@ -104,6 +105,23 @@ void hard_table_refuse(hard_table *t)
 {
     t->row[t->n_row - 1].refused++;
     t->total.refused++;
+}
+
+void hard_table_used(size_t out[3], const hard_table *t)
+{
+    out[0] = out[1] = out[2] = 0;
+    for (size_t i = 0; i < t->n_result; i++) {
+        const hard_result *r = &t->result[i];
+        bool seen[3] = {!r->rays, !r->rays, !r->rays};
+        for (size_t k = 0; k < i; k++) {
+            const hard_result *q = &t->result[k];
+            seen[0] = seen[0] || (q->rays && !strcmp(q->mesh, r->mesh));
+            seen[1] = seen[1] || (q->rays && !strcmp(q->view, r->view));
+            seen[2] = seen[2] || (q->rays && !strcmp(q->function, r->function));
+        }
+        for (int k = 0; k < 3; k++)
+            out[k] += !seen[k];
+    }
 }
 
 const hard_row *hard_table_total(const hard_table *t)
@@ -150,15 +168,16 @@ tc_status hard_table_write_markdown(const hard_table *t, const char *path, tc_er
 
 static json_t *json_of(const hard_result *r)
 {
-    return json_pack("{s:I s:I s:I s:I s:I s:I s:I s:f s:f s:f s:I s:I s:I s:f s:I s:I s:f s:I s:I s:f}", "rays",
+    return json_pack("{s:I s:I s:I s:I s:I s:I s:I s:I s:f s:f s:f s:I s:I s:I s:f s:I s:I s:f s:I s:I s:f}", "rays",
                      (json_int_t)r->rays, "rays_lost", (json_int_t)r->lost, "broken_cells", (json_int_t)r->broken,
-                     "judged", (json_int_t)r->judged, "other_cells", (json_int_t)r->wrong, "doubtful",
-                     (json_int_t)r->doubtful, "closed_paths", (json_int_t)r->cycles, "length_error", r->length_error,
-                     "real_length_error", r->real_error, "walk_error", r->walk_error, "ill_posed_lengths", (json_int_t)r->ill_length, "pixels",
-                     (json_int_t)r->pixels, "ill_posed", (json_int_t)r->ill_posed, "picture_error", r->picture_error,
-                     "chords", (json_int_t)r->chords, "ill_posed_chords", (json_int_t)r->ill_chord, "alpha_error",
-                     r->alpha_error, "compared", (json_int_t)r->compared, "ill_posed_compared",
-                     (json_int_t)r->ill_compared, "difference", r->difference);
+                     "judged", (json_int_t)r->judged, "judged_lengths", (json_int_t)r->lengths, "other_cells",
+                     (json_int_t)r->wrong, "doubtful", (json_int_t)r->doubtful, "closed_paths", (json_int_t)r->cycles,
+                     "length_error", r->length_error, "real_length_error", r->real_error, "walk_error", r->walk_error,
+                     "ill_posed_lengths", (json_int_t)r->ill_length, "pixels", (json_int_t)r->pixels, "ill_posed",
+                     (json_int_t)r->ill_posed, "picture_error", r->picture_error, "chords", (json_int_t)r->chords,
+                     "ill_posed_chords", (json_int_t)r->ill_chord, "alpha_error", r->alpha_error, "compared",
+                     (json_int_t)r->compared, "ill_posed_compared", (json_int_t)r->ill_compared, "difference",
+                     r->difference);
 }
 
 static json_t *json_of_row(const hard_row *row)

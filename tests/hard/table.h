@@ -20,6 +20,8 @@ tc_status hard_table_begin(hard_table *table, const hard_mesh *mesh, tc_error *e
 tc_status hard_table_add(hard_table *table, const hard_result *r, tc_error *err);
 /* A function or mesh was refused, as it must be. */
 void hard_table_refuse(hard_table *table);
+/* How many meshes (0), views (1) and functions (2) at least one picture was made of. */
+void hard_table_used(size_t out[3], const hard_table *table);
 /* Everything, added up. */
 const hard_row *hard_table_total(const hard_table *table);
 

@@ -26,9 +26,12 @@ edit() {
 
 case $name in
 float-signs)
-    # As plain floats, nothing is ever unsure: neither doubles nor ties are reached.
+    # As plain floats, nothing is ever unsure: neither doubles nor ties are reached. Both branches, for CPUs and GPUs.
     edit signs.glsl 's/^    precise double e = double(p.x) \* double(q.y) - double(p.y) \* double(q.x);$/    precise float m = p.x * q.y, n = p.y * q.x, e = m - n;/
-        s/^    sure = sure \&\& abs(c) > SIGN_TINY;/    sure = sure;/' 4
+        s/^    sure = sure \&\& abs(c) > SIGN_TINY;/    sure = sure;/
+        /^    precise float rest = /d
+        s/^    precise float c = fma(p.x, q.y, -n) + rest;/    precise float m = p.x * q.y, c = m - n;/
+        s/^    sure = sure \&\& abs(c) > max(SIGN_ROUNDING.*/    sure = sure;/' 9
     ;;
 no-ties)
     edit signs.glsl '/^        if (e == 0.0LF)$/d; /^            positive = p.y != q.y/d' 2
@@ -39,7 +42,9 @@ ids-only)
 float-weights)
     # The cross is plain float wherever that has the right sign.
     edit signs.glsl 's/^    precise double e = double(p.x) \* double(q.y) - double(p.y) \* double(q.x);$/    precise float m = p.x * q.y, n = p.y * q.x, e = m - n;/
-        s/^    sure = sure \&\& abs(c) > SIGN_TINY;/    sure = sure \&\& abs(c) > 4.8e-7 * (abs(m) + abs(n));/' 4
+        s/^    sure = sure \&\& abs(c) > SIGN_TINY;/    sure = sure \&\& abs(c) > 4.8e-7 * (abs(m) + abs(n));/
+        /^    precise float rest = /d
+        s/^    precise float c = fma(p.x, q.y, -n) + rest;/    precise float m = p.x * q.y, c = m - n;/' 7
     ;;
 eye-origin)
     # The origin lies t directions beyond the eye, and moves over the image as much as the direction does.

@@ -75,6 +75,40 @@ static void a_finer_mesh_of_a_linear_field_looks_different(void **state)
     tc_transfer_destroy(&tf);
 }
 
+/* One cube in 8 x 8 x 8 blocks that are split in three ways, with one linear field. */
+static void another_split_of_a_linear_field_looks_different(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        size_t n_cells;
+    } splits[] = {{"grid-kuhn", 3072}, {"grid-five", 2560}, {"grid-bcc", 6144}};
+    enum { N_SPLIT = sizeof splits / sizeof *splits };
+    static const double from[][3] = {{1, 0.4, 0.7}, {-0.3, 0.2, 1}};
+    tc_mesh_report first, other;
+    for (size_t k = 0; k < sizeof from / sizeof *from; k++) {
+        tc_image *image = NULL;
+        tc_transfer *tf = NULL;
+        for (size_t i = 0; i < N_SPLIT; i++) {
+            tc_mesh *mesh = suite_synth(splits[i].name, splits[i].n_cells, TC_REENTRY_AUTO);
+            tc_mesh_get_report(&other, mesh);
+            assert_int_equal(other.n_tet, splits[i].n_cells);
+            if (i == 0) {
+                first = other;
+                tf = suite_benchmark(mesh);
+                image = picture(mesh, tf, from[k][0], from[k][1], from[k][2]);
+                continue;
+            }
+            assert_memory_equal(other.bounds, first.bounds, sizeof first.bounds);
+            for (int e = 0; e < 2; e++)
+                assert_true(fabs(other.scalar_range[e] - first.scalar_range[e]) < 1e-12);
+            expect_same(splits[i].name, SUITE_HALF_STEP, image, picture(mesh, tf, from[k][0], from[k][1], from[k][2]));
+        }
+        tc_image_destroy(&image);
+        tc_transfer_destroy(&tf);
+    }
+}
+
 static void refined_or_permuted_heat_sink_looks_different(void **state)
 {
     (void)state;
@@ -239,6 +273,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_scalar_does_not_jump_at_a_flat_layer),
         cmocka_unit_test(a_finer_mesh_of_a_linear_field_looks_different),
+        cmocka_unit_test(another_split_of_a_linear_field_looks_different),
         cmocka_unit_test(refined_or_permuted_heat_sink_looks_different),
         cmocka_unit_test(gaps_of_the_heat_sink_are_crossed_wrongly),
         cmocka_unit_test(gaps_and_cavity_of_the_shells_are_crossed_wrongly),
