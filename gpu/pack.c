@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "transfer_functions/place.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,11 +42,7 @@ static void find_frame(tc_pack *pack, const tc_mesh *mesh)
 /* x mapped; NaN where it is not finite: march.frag leaves out what it reaches. */
 static float map_scalar(double x, double lo, double hi)
 {
-    if (!isfinite(x))
-        return NAN;
-    if (!(hi > lo))
-        return 0;
-    return (float)((0.5 * x - 0.5 * lo) / (0.5 * hi - 0.5 * lo)); /* halves: the range may exceed what a double holds */
+    return isfinite(x) ? (float)tc_place(x, lo, hi) : NAN;
 }
 
 static void pack_vertices(tc_pack *pack, const tc_mesh *mesh)
