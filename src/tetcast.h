@@ -327,7 +327,7 @@ typedef struct tc_render_options {
     tc_table_format table_format;
     double unit_distance;         /* 0: bounds diagonal / cbrt(cells) */
     double opacity_stop;          /* a ray ends at this alpha; 1: never */
-    int steps_per_pass;           /* K; 0: auto */
+    int steps_per_pass;           /* K at most; 0: auto; software renderers take fewer where a step may be long */
     int z_update_every;           /* passes between z-locks, 1 … 65536, rounded up to even; 0: auto; -1: never lock */
     bool count;                   /* count steps, fragments per pass (costs time) */
     tc_stepper stepper;
