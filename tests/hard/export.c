@@ -15,7 +15,7 @@ enum { SIZE = 128, FUNCTION_SMOOTH = 2 };
 static bool is_common(const hard_view *view)
 {
     return view->camera.clip_near == 0 && view->camera.clip_far == 0 && view->width == view->height &&
-           view->width > 1 && view->width < 2 * SIZE;
+           view->width > 1 && view->width < 2 * SIZE && !view->grazing;
 }
 
 static json_t *json_point(const double *p)
