@@ -17,6 +17,12 @@ if [ -f "$fin" ]; then
         --opacity 0.19:0,0.9:0.02,1.1:0.12,2:0.5,5:3 --background 1,1,1 -o "$images/bluntfin.png"
 fi
 
+# Flat cells, by exact signs and by the paper's own arithmetic, which loses rays and says so.
+for stepper in signs planes; do
+    "$tetcast" render synth:cap-1e8 --stepper $stepper --size 480x400 --azimuth 30 --elevation 20 --background 1,1,1 \
+        --quiet -o "$images/cap-$stepper.png" || [ $stepper = planes ]
+done
+
 # Weiler et al. 2003, figure 8: fragments in each pass of the heat sink, one cell a pass.
 curve() { # FILE OPTIONS…: one number a line
     file=$1
