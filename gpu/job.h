@@ -34,6 +34,7 @@ typedef struct tc_job {
     bool nonfinite;     /* some scalars are NaN: their cells contribute nothing, */
     bool has_nan_color; /* … or nan_color: r, g, b, attenuation per unit distance */
     double nan_color[4];
+    double most[3];     /* largest r, g, b that a ray may meet */
     double mean[4];     /* running integrals: mean slope */
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */

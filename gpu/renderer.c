@@ -234,6 +234,8 @@ static tc_status resolve(tc_gpu_renderer *r, const tc_job *job, tc_error *err)
     gl->Disable(GL_DEPTH_TEST);
     gl->UseProgram(program);
     tc_pass_texture(gl, program, "state_color", 0, GL_TEXTURE_2D, r->state.set[0].color);
+    gl->Uniform3f(gl->GetUniformLocation(program, "color_most"), (float)job->most[0], (float)job->most[1],
+                  (float)job->most[2]);
     tc_pass_screen(gl);
     gl->Finish();
     return tc_gl_check(gl, "resolving the picture", err);
@@ -266,6 +268,18 @@ static void fill_stats(tc_render_stats *stats, tc_gpu_renderer *r, const tc_job 
     stats->ms_march = result->ms_march;
 }
 
+/* The largest r, g, b of a function and, unless NULL, of the colour of missing values. */
+static void find_most(double most[3], const tc_transfer *tf, const double *nan_color)
+{
+    for (int c = 0; c < 3; c++)
+        most[c] = nan_color ? nan_color[c] : 0;
+    for (size_t i = 0; i < tf->n; i++) {
+        const double color[3] = {tf->knot[i].r, tf->knot[i].g, tf->knot[i].b};
+        for (int c = 0; c < 3; c++)
+            most[c] = fmax(most[c], color[c]);
+    }
+}
+
 /* Steps are read as a whole, also where nothing is drawn. */
 static void clear_steps(const tc_job *job)
 {
@@ -282,6 +296,7 @@ static tc_status peel_frame(tc_job_result *result, tc_gpu_renderer *r, tc_job *j
                             tc_error *err)
 {
     const tc_gl *gl = job->gl;
+    free(result->fragments);
     job->peel = true;
     gl->Disable(GL_SCISSOR_TEST);
     tc_status status = ensure_state(r, options, true, err);
@@ -345,6 +360,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.has_nan_color = job.nonfinite && options->has_nan_color;
     memcpy(job.nan_color, options->nan_color, sizeof job.nan_color);
     job.nan_color[3] = fmin(job.nan_color[3], OPAQUE);
+    find_most(job.most, frame->transfer, job.has_nan_color ? job.nan_color : NULL);
     job.transmittance_stop = options->opacity_stop >= 1 ? -1 : 1 - options->opacity_stop;
     job.count = options->count || options->audit;
     job.audit = options->audit;
