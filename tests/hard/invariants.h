@@ -17,7 +17,6 @@
 #define HARD_EXCESS 2e-5
 #define HARD_EXCESS_HALF 0x1p-10
 #define HARD_ILL_POSED 1e-4
-#define HARD_ILL_LENGTHS 2e-4 /* lengths tell more than colours of rays that views send along edges and in faces */
 
 /* Where pictures are made, and how many of their rays are judged. */
 typedef struct hard_bench {

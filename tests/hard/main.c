@@ -191,11 +191,11 @@ static tc_status judge_mesh(session *run, size_t index)
 }
 
 /* Of all rays at most a share may be ill-posed. */
-static bool too_many(const char *what, size_t ill, size_t n, double share)
+static bool too_many(const char *what, size_t ill, size_t n)
 {
-    if (ill <= 1 || (double)ill <= share * (double)n)
+    if (ill <= 1 || (double)ill <= HARD_ILL_POSED * (double)n)
         return false;
-    fprintf(stderr, "FAILED %zu of %zu %s are ill-posed, more than %g\n", ill, n, what, share);
+    fprintf(stderr, "FAILED %zu of %zu %s are ill-posed, more than %g\n", ill, n, what, HARD_ILL_POSED);
     return true;
 }
 
@@ -240,10 +240,10 @@ static bool summarise(const session *run)
            r->length_error, r->real_error, r->ill_length, r->walk_error, r->picture_error, r->pixels, r->ill_posed,
            r->alpha_error, r->chords, r->ill_chord, r->difference, r->compared, r->ill_compared, t->refused, t->failed);
     bool bad = r->lost > 0 || r->broken > 0;
-    bad = too_many("lengths", r->ill_length, r->lengths, HARD_ILL_LENGTHS) || bad;
-    bad = too_many("pixels", r->ill_posed, r->pixels, HARD_ILL_POSED) || bad;
-    bad = too_many("analytic chords", r->ill_chord, r->chords, HARD_ILL_POSED) || bad;
-    bad = too_many("compared pixels", r->ill_compared, r->compared, HARD_ILL_POSED) || bad;
+    bad = too_many("lengths", r->ill_length, r->lengths) || bad;
+    bad = too_many("pixels", r->ill_posed, r->pixels) || bad;
+    bad = too_many("analytic chords", r->ill_chord, r->chords) || bad;
+    bad = too_many("compared pixels", r->ill_compared, r->compared) || bad;
     bad = too_few(run) || bad;
     return t->cases > 0 && t->failed == 0 && !bad;
 }

@@ -108,12 +108,15 @@ static bool is_as_listed(const char *path)
 static void test_real_files_lose_cells(void **state)
 {
     (void)state;
+    bool left_out = false;
     need(DATA "vol");
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         const known_file *k = &known[i];
         const tc_read_options options = {.field = NULL};
-        if (!is_as_listed(k->path))
+        if (!is_as_listed(k->path)) {
+            left_out = true;
             continue;
+        }
         tc_mesh *m = read_path(k->path, &options);
         const tc_source *s = m->source;
         assert_string_equal(s->path, k->path);
@@ -141,6 +144,8 @@ static void test_real_files_lose_cells(void **state)
         }
         tc_mesh_destroy(&m);
     }
+    if (left_out)
+        skip(); /* all others were checked: the report is not to say that all were */
 }
 
 static void test_blunt_fin_arrays_are_wrong(void **state)
