@@ -45,13 +45,16 @@ static ray ray_of(const tc_rays *rays, size_t pixel)
     return r;
 }
 
+/* Of RAY_SHIFT. */
+#define NEAR_SIDE 0x1p-6
+
 typedef struct probe {
     size_t pixel;
     hard_walk walk;
-    double all, real; /* errors of the walk's lengths, in diagonals */
+    double all, real; /* errors of the walk's lengths, in diagonals; how far they lie outside of those beside the ray */
     double walk_real; /* the same against exact arithmetic on the floats that the walk sees */
     bool thin;        /* its true length is not asked for */
-    bool wrong, ill, failed;
+    bool wrong, jumps, failed;
 } probe;
 
 typedef struct force {
@@ -63,11 +66,10 @@ typedef struct force {
 } force;
 
 /* The ray's true lengths in the mesh, as the walk sums them. */
-static tc_status true_lengths(double *all, double *real, const hard_mesh *m, const double *origin, const ray *r,
-                              int worker)
+static tc_status true_lengths(double *all, double *real, const hard_mesh *m, const ray *r, int worker)
 {
     hard_chord chord;
-    tc_status status = hard_judge_chord(&chord, m->judge, origin, r->direction, r->range[0], r->range[1], worker);
+    tc_status status = hard_judge_chord(&chord, m->judge, r->origin, r->direction, r->range[0], r->range[1], worker);
     *real = chord.real;
     *all = chord.all;
     if (m->report.convex || m->report.n_imaginary > 0) /* nothing is left out of the hull, and nothing is there twice */
@@ -75,6 +77,19 @@ static tc_status true_lengths(double *all, double *real, const hard_mesh *m, con
     return status;
 }
 
+static void widen(double range[2], double value)
+{
+    range[0] = fmin(range[0], value);
+    range[1] = fmax(range[1], value);
+}
+
+static double outside(double value, const double range[2])
+{
+    return fmax(fmax(range[0] - value, value - range[1]), 0);
+}
+
+/* A ray whose length jumps beside it must have one between those of its sides; in many thin cells these differ from
+ * their limits by more than the bound, so nearer sides are asked as well. */
 static void judge_ray(const force *f, probe *p, int worker)
 {
     const hard_mesh *m = f->mesh;
@@ -82,7 +97,7 @@ static void judge_ray(const force *f, probe *p, int worker)
     const tc_audit_ray *audit = &f->picture->audit[p->pixel];
     double all, real;
     p->failed = hard_judge_walk(&p->walk, m->judge, &f->frame, r.X, r.Y, worker) != TC_OK ||
-                true_lengths(&all, &real, m, r.origin, &r, worker) != TC_OK;
+                true_lengths(&all, &real, m, &r, worker) != TC_OK;
     if (p->failed)
         return;
     p->wrong = f->exact && p->walk.doubt == 0 && (p->walk.cells != audit->cells || p->walk.hash != audit->hash);
@@ -92,11 +107,24 @@ static void judge_ray(const force *f, probe *p, int worker)
         return;
     p->all = fabs(audit->length - all) / m->diagonal;
     p->real = fabs(audit->length_real - real) / m->diagonal;
-    for (int k = 0; k < RAY_SIDES && fmax(p->all, p->real) > HARD_LENGTH && !p->ill; k++) {
-        double moved[3], all_there, real_there;
-        ray_shift(moved, r.origin, r.direction, RAY_SHIFT * m->diagonal, k);
-        p->failed = true_lengths(&all_there, &real_there, m, moved, &r, worker) != TC_OK;
-        p->ill = fmax(fabs(all_there - all), fabs(real_there - real)) > 0.5 * HARD_LENGTH * m->diagonal;
+    if (fmax(p->all, p->real) <= HARD_LENGTH)
+        return;
+    double most_all[2] = {all, all}, most_real[2] = {real, real};
+    for (int k = 0; k < 2 * RAY_SIDES && !p->failed; k++) {
+        ray beside = r;
+        if (k == RAY_SIDES)
+            p->jumps = fmax(most_all[1] - most_all[0], most_real[1] - most_real[0]) > 0.5 * HARD_LENGTH * m->diagonal;
+        if (k >= RAY_SIDES && !p->jumps)
+            break;
+        ray_shift(beside.origin, r.origin, r.direction, (k < RAY_SIDES ? 1 : NEAR_SIDE) * RAY_SHIFT * m->diagonal,
+                  k % RAY_SIDES);
+        p->failed = true_lengths(&all, &real, m, &beside, worker) != TC_OK;
+        widen(most_all, all);
+        widen(most_real, real);
+    }
+    if (p->jumps) {
+        p->all = outside(audit->length, most_all) / m->diagonal;
+        p->real = outside(audit->length_real, most_real) / m->diagonal;
     }
 }
 
@@ -170,12 +198,10 @@ static void judge_by_force(hard_result *r, const hard_bench *bench, const hard_m
         broken += p->walk.broken > 0;
         r->wrong += p->wrong;
         wrong = p->wrong ? p : wrong;
-        r->ill_length += p->ill;
+        r->jumps += p->jumps;
         r->walk_error = fmax(r->walk_error, p->walk_real);
-        if (!p->ill) {
-            r->length_error = fmax(r->length_error, p->all);
-            r->real_error = fmax(r->real_error, p->real);
-        }
+        r->length_error = fmax(r->length_error, p->all);
+        r->real_error = fmax(r->real_error, p->real);
     }
     size_t width = (size_t)picture->image->width;
     if (failed)

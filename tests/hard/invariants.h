@@ -33,9 +33,9 @@ typedef struct hard_result {
     int64_t rays, lost, broken;
     size_t judged, wrong, doubtful, cycles; /* rays by brute force; other cells than the walk's */
     size_t lengths;                         /* of these, the rays whose true length was asked for */
-    double length_error, real_error;        /* in diagonals, without ill-posed rays */
+    double length_error, real_error;        /* in diagonals; of a ray whose length jumps, from those of its sides */
     double walk_error;                      /* of real lengths against exact weights of the same floats, all rays */
-    size_t ill_length;                      /* rays whose length jumps */
+    size_t jumps;                           /* rays whose length jumps */
     size_t pixels, ill_posed;               /* by the reference */
     double picture_error;
     size_t chords, ill_chord; /* by the analytic chord */

@@ -232,15 +232,15 @@ static bool summarise(const session *run)
     const hard_row *t = hard_table_total(run->table);
     const hard_result *r = &t->sum;
     printf("%s: %zu cases, %lld rays, %lld lost; %zu rays by brute force, %zu with other cells, %zu with closed paths\n"
-           "  worst: length %.1e, real length %.1e diagonals (%zu ill-posed), %.1e from exact weights; picture %.1e of "
+           "  worst: length %.1e, real length %.1e diagonals (%zu jump and lie between their sides'), %.1e from exact "
+           "weights; picture %.1e of "
            "%zu pixels (%zu ill-posed); "
            "alpha %.1e of %zu (%zu ill-posed); the same picture %.1e of %zu pixels (%zu ill-posed)\n"
            "  %zu meshes or functions refused, %zu cases failed\n",
            run->s->context, t->cases, (long long)r->rays, (long long)r->lost, r->judged, r->wrong, r->cycles,
-           r->length_error, r->real_error, r->ill_length, r->walk_error, r->picture_error, r->pixels, r->ill_posed,
+           r->length_error, r->real_error, r->jumps, r->walk_error, r->picture_error, r->pixels, r->ill_posed,
            r->alpha_error, r->chords, r->ill_chord, r->difference, r->compared, r->ill_compared, t->refused, t->failed);
     bool bad = r->lost > 0 || r->broken > 0;
-    bad = too_many("lengths", r->ill_length, r->lengths) || bad;
     bad = too_many("pixels", r->ill_posed, r->pixels) || bad;
     bad = too_many("analytic chords", r->ill_chord, r->chords) || bad;
     bad = too_many("compared pixels", r->ill_compared, r->compared) || bad;

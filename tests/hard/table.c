@@ -76,7 +76,7 @@ static void add_result(hard_row *row, const hard_result *r)
     s->doubtful += r->doubtful;
     s->cycles += r->cycles;
     s->lengths += r->lengths;
-    s->ill_length += r->ill_length;
+    s->jumps += r->jumps;
     s->pixels += r->pixels;
     s->ill_posed += r->ill_posed;
     s->chords += r->chords;
@@ -173,7 +173,7 @@ static json_t *json_of(const hard_result *r)
                      "judged", (json_int_t)r->judged, "judged_lengths", (json_int_t)r->lengths, "other_cells",
                      (json_int_t)r->wrong, "doubtful", (json_int_t)r->doubtful, "closed_paths", (json_int_t)r->cycles,
                      "length_error", r->length_error, "real_length_error", r->real_error, "walk_error", r->walk_error,
-                     "ill_posed_lengths", (json_int_t)r->ill_length, "pixels", (json_int_t)r->pixels, "ill_posed",
+                     "jumping_lengths", (json_int_t)r->jumps, "pixels", (json_int_t)r->pixels, "ill_posed",
                      (json_int_t)r->ill_posed, "picture_error", r->picture_error, "chords", (json_int_t)r->chords,
                      "ill_posed_chords", (json_int_t)r->ill_chord, "alpha_error", r->alpha_error, "compared",
                      (json_int_t)r->compared, "ill_posed_compared", (json_int_t)r->ill_compared, "difference",
