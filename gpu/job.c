@@ -7,14 +7,17 @@
 
 void tc_job_defines(char *out, size_t capacity, const tc_job *job)
 {
-    snprintf(out, capacity, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s", job->has_imaginary ? "#define HAS_IMAGINARY\n" : "",
+    bool running = job->integrator == TC_INTEGRATOR_INTEGRAL;
+    snprintf(out, capacity, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s", job->has_imaginary ? "#define HAS_IMAGINARY\n" : "",
              job->peel ? "#define PEEL\n" : "", job->cell_data ? "#define CELL_DATA\n" : "",
              job->extend ? "#define TF_EXTEND\n" : "", job->frame->clip_near ? "#define CLIP_NEAR\n" : "",
              job->frame->clip_far ? "#define CLIP_FAR\n" : "", job->frame->ahead ? "#define ENTRY_AHEAD\n" : "",
-             job->integrator == TC_INTEGRATOR_INTEGRAL ? "#define COLOR_HOLDS_DEPTH\n" : "",
+             job->integrator != TC_INTEGRATOR_TABLE ? "#define COLOR_HOLDS_DEPTH\n" : "",
              job->float_table ? "#define TF_TABLE_FLOAT\n" : "", job->count ? "#define COUNT\n" : "",
              job->audit ? "#define AUDIT\n" : "", job->nonfinite ? "#define NONFINITE\n" : "",
-             job->has_nan_color ? "#define NAN_COLOR\n" : "", job->software ? "#define SOFTWARE\n" : "");
+             job->has_nan_color ? "#define NAN_COLOR\n" : "", job->software ? "#define SOFTWARE\n" : "",
+             running && job->order == 1 ? "#define TF_FIRST_ORDER\n" : "",
+             running && job->split > 0 ? "#define TF_SPLIT\n" : "");
 }
 
 void tc_job_bind_mesh(const tc_job *job, GLuint program)

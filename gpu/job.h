@@ -20,7 +20,7 @@ typedef struct tc_job {
     GLuint entry_counter;          /* buffer of first_hit.frag's atomic counter */
     GLuint screen_array;           /* an empty vertex array */
 
-    tc_integrator integrator;                    /* TABLE or INTEGRAL */
+    tc_integrator integrator;                    /* TABLE, INTEGRAL or EXACT */
     bool has_imaginary, peel, cell_data, extend; /* extend: data reach beyond the transfer function's knots */
     double length_unit;                          /* half diagonals → unit distances */
     double transmittance_stop;                   /* 1 - opacity stop; negative: never */
@@ -29,26 +29,27 @@ typedef struct tc_job {
     double grid[2];                              /* running integrals: intervals between nodes, length of one */
     bool float_table;
     double near;        /* running integrals: smallest difference */
-    bool pieces;        /* integrate piece by piece of the function; else by running integrals over nodes */
-    int n_piece;
+    int order;          /* running integrals: 1 or 2 */
+    double split;       /* … segments are cut to this optical depth; 0: never */
+    int n_piece;        /* exact: pieces of the function */
     bool nonfinite;     /* some scalars are NaN: their cells contribute nothing, */
     bool has_nan_color; /* … or nan_color: r, g, b, attenuation per unit distance */
     double nan_color[4];
-    double most[3];     /* largest r, g, b that a ray may meet */
-    double mean[4];     /* running integrals: mean slope */
+    double most[3]; /* largest r, g, b that a ray may meet */
+    double mean[4]; /* running integrals: mean slope */
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
-    bool count, audit; /* audit counts as well */
-    bool planes;   /* the stepper is the paper's arithmetic: stepper_planes.glsl, */
-    double longest; /* … which needs to know the longest edge of the real cells, in mesh space */
-    bool software; /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
+    bool count, audit;                  /* audit counts as well */
+    bool planes;                        /* the stepper is the paper's arithmetic: stepper_planes.glsl, */
+    double longest;                     /* … which needs to know the longest edge of the real cells, in mesh space */
+    bool software;                      /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
 } tc_job;
 
 typedef struct tc_job_result {
     double ms_first_hit, ms_march;
     int passes, z_updates, layers;
     int64_t rays, rays_lost;
-    int64_t twice;      /* without peeling: entries beyond the first of their rays; if there are any, nothing was marched */
+    int64_t twice; /* without peeling: entries beyond the first of their rays; if there are any, nothing was marched */
     int64_t *fragments; /* [passes], only when counting; caller frees */
 } tc_job_result;
 

@@ -43,7 +43,7 @@ static void bind_transfer(const tc_job *job, GLuint program)
         tc_pass_vec2(gl, program, "tf_texel[0]", job->texel[0][0], job->texel[0][1]);
         tc_pass_vec2(gl, program, "tf_texel[1]", job->texel[1][0], job->texel[1][1]);
         tc_pass_vec2(gl, program, "tf_texel[2]", job->texel[2][0], job->texel[2][1]);
-    } else if (job->pieces) {
+    } else if (job->integrator == TC_INTEGRATOR_EXACT) {
         int half = 1;
         while (2 * half < job->n_piece)
             half *= 2;
@@ -55,6 +55,8 @@ static void bind_transfer(const tc_job *job, GLuint program)
         tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
         tc_pass_float(gl, program, "tf_near", job->near);
         tc_pass_vec4(gl, program, "tf_mean", job->mean);
+        if (job->split > 0)
+            tc_pass_float(gl, program, "tf_split", job->split);
     }
 }
 
@@ -78,9 +80,9 @@ static tc_status get_programs(loop *l)
     char defines[512], alias[128];
     tc_job_defines(defines, sizeof defines, job);
     snprintf(alias, sizeof alias, "integrator.glsl=%s%s",
-             job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl"
-             : job->pieces                          ? "integrate_pieces.glsl"
-                                                    : "integrate_integral.glsl",
+             job->integrator == TC_INTEGRATOR_TABLE   ? "integrate_table.glsl"
+             : job->integrator == TC_INTEGRATOR_EXACT ? "integrate_exact.glsl"
+                                                      : "integrate_integral.glsl",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
     const tc_program_source march = {"screen.vert", "march.frag", defines, alias};
     const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL},
@@ -315,7 +317,7 @@ tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err
         int before = out->layers;
         status = march_layer(&l);
         if (status != TC_OK || out->layers == before)
-            break; /* no ray entered, or some more than once */
+            break;       /* no ray entered, or some more than once */
         if (job->planes) /* with peeling, a ray counts for each entry from which it is lost */
             out->rays_lost += count_given_up(&l);
         if (l.open > 0) {

@@ -18,10 +18,11 @@ enum {
     AUTO_STEPS_SOFTWARE = 512, /* where a pass costs next to nothing: most rays end in the first */
     AUTO_STEPS_HARDWARE = 64,
     SOFTWARE_ROUNDS = 60000, /* of loops in one invocation, within llvmpipe's limit */
-    ROUNDS_BESIDE = 100,     /* a step's own, besides those of integrate_pieces.glsl for each piece */
+    ROUNDS_BESIDE = 100,     /* a step's own, besides those of integrate_exact.glsl for each piece */
     AUTO_Z_SMALL = 4 /* for few steps a pass; Weiler et al. 2003, 5.2, found 14 best: 3 to 6 % more fragments here */
 };
 
+static const double OPACITY_STOP = 0.999, OPACITY_STOP_EXACT = 0.9999;
 static const double OPAQUE = 1e30; /* attenuation of the colour of missing values: more would not fit a float */
 
 struct tc_gpu_renderer {
@@ -156,7 +157,8 @@ static void choose_passes(tc_job *job, const tc_render_options *options)
                           : job->software             ? AUTO_STEPS_SOFTWARE
                                                       : AUTO_STEPS_HARDWARE;
     if (job->software &&
-        job->pieces) { /* a segment may cross every piece, and loops are cut after 65535 rounds in all */
+        job->integrator ==
+            TC_INTEGRATOR_EXACT) { /* a segment may cross every piece, and loops are cut after 65535 rounds in all */
         int most = (int)(SOFTWARE_ROUNDS / ((double)job->n_piece + ROUNDS_BESIDE));
         job->steps_per_pass = job->steps_per_pass < most ? job->steps_per_pass : most > 1 ? most : 1;
     }
@@ -218,7 +220,7 @@ static void set_scissor(const tc_gl *gl, const int *rect)
 static tc_status resolve(tc_gpu_renderer *r, const tc_job *job, tc_error *err)
 {
     const tc_gl *gl = &r->context->gl;
-    const char *defines = job->integrator == TC_INTEGRATOR_INTEGRAL ? "#define COLOR_HOLDS_DEPTH\n" : "";
+    const char *defines = job->integrator != TC_INTEGRATOR_TABLE ? "#define COLOR_HOLDS_DEPTH\n" : "";
     const tc_program_source source = {"screen.vert", "resolve.frag", defines, NULL};
     GLuint program;
     tc_status status = tc_program_get(&program, r->programs, &source, err);
@@ -249,7 +251,13 @@ static void fill_stats(tc_render_stats *stats, tc_gpu_renderer *r, const tc_job 
     snprintf(stats->driver, sizeof stats->driver, "pingpong");
     snprintf(stats->stepper, sizeof stats->stepper, "%s", job->planes ? "planes" : "signs");
     snprintf(stats->integrator, sizeof stats->integrator, "%s",
-             job->integrator == TC_INTEGRATOR_TABLE ? "table" : "integral");
+             job->integrator == TC_INTEGRATOR_TABLE   ? "table"
+             : job->integrator == TC_INTEGRATOR_EXACT ? "exact"
+                                                      : "integral");
+    stats->integral_order = job->integrator == TC_INTEGRATOR_INTEGRAL ? job->order : -1;
+    stats->opacity_stop = job->transmittance_stop < 0 ? 1 : 1 - job->transmittance_stop;
+    stats->samples = 1;
+    stats->state_bits = 32;
     stats->gpu_bytes_mesh =
         (double)(r->mesh.cells.bytes + r->mesh.vertices.bytes + r->mesh.planes_vertices.bytes +
                  r->mesh.planes_normals.bytes + r->mesh.planes_neighbours.bytes + r->mesh.planes_scalars.bytes);
@@ -361,7 +369,10 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     memcpy(job.nan_color, options->nan_color, sizeof job.nan_color);
     job.nan_color[3] = fmin(job.nan_color[3], OPAQUE);
     find_most(job.most, frame->transfer, job.has_nan_color ? job.nan_color : NULL);
-    job.transmittance_stop = options->opacity_stop >= 1 ? -1 : 1 - options->opacity_stop;
+    double stop = options->opacity_stop > 0                    ? options->opacity_stop
+                  : options->integrator == TC_INTEGRATOR_EXACT ? OPACITY_STOP_EXACT
+                                                               : OPACITY_STOP;
+    job.transmittance_stop = stop >= 1 ? -1 : 1 - stop;
     job.count = options->count || options->audit;
     job.audit = options->audit;
     job.planes = planes;

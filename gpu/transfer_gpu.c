@@ -21,18 +21,8 @@ static const double NEAR_LEAST = 1.0 / 16384; /* smallest difference of x that c
 static const double WIDTH_LEAST = 1e-300;
 static const double NARROW_MOST = 1e6;
 static const double LENGTH_UNIT_MOST = 1e15;
-static const double MAP_MOST = 1e30;       /* x beyond is the same piece: integrate_pieces.glsl */
+static const double MAP_MOST = 1e30;       /* x beyond is the same piece: integrate_exact.glsl */
 static const double WIDEN_CONSTANT = 1e-3; /* of the scalar: the span of data of one value */
-
-static tc_integrator choose(const tc_render_options *options, tc_render_stats *stats)
-{
-    if (options->integrator != TC_INTEGRATOR_AUTO)
-        return options->integrator;
-    snprintf(stats->integrator_why, sizeof stats->integrator_why,
-             "running integrals: a fifth of the error of a 128x128x256 table of half floats, a hundredth of one of 8 "
-             "bits, and faster on llvmpipe");
-    return TC_INTEGRATOR_INTEGRAL;
-}
 
 /* The part of the data's range in which the function changes: beyond its end knots it is constant. */
 static void find_span(double span[2], const tc_transfer_gpu_request *request)
@@ -136,7 +126,43 @@ static bool needs_pieces(const tc_transfer_gpu_request *request)
     return false;
 }
 
-static void bind(tc_job *job, const tc_transfer_gpu *t)
+/* INTEGRAL or EXACT for what was asked for, and why. */
+static tc_status choose(tc_transfer_gpu *wanted, const tc_transfer_gpu_request *request, tc_render_stats *stats,
+                        tc_error *err)
+{
+    const tc_render_options *options = request->options;
+    bool few = request->transfer->n <= PIECES_MOST;
+    const char *why = NULL;
+    if (options->integrator == TC_INTEGRATOR_EXACT && !few)
+        return tc_fail(
+            err, TC_E_ARG,
+            "the transfer function has %zu knots, more than the %d that can be integrated one by one; use the "
+            "integrator 'integral' or fewer knots",
+            request->transfer->n, PIECES_MOST);
+    if (options->integrator == TC_INTEGRATOR_EXACT)
+        return TC_OK;
+    wanted->integrator = TC_INTEGRATOR_INTEGRAL;
+    bool as_it_is = options->integral_order > 0 || options->integral_split > 0;
+    if (!(request->scalar[1] > request->scalar[0])) /* it may lie on a step, where nodes hold the mean of both sides */
+        why = "the data have one value";
+    else if (is_beyond_nodes(request, wanted->span))
+        why = "ranges are too wide or too narrow for nodes";
+    else if (!as_it_is && wanted->size[0] > INTERVALS_MOST)
+        why = "the function has steps or rises that nodes cannot resolve";
+    else if (!as_it_is && needs_pieces(request))
+        why = "cells are so dense that their colour would err by more than 0.001 if integrated whole";
+    if (why && few)
+        wanted->integrator = TC_INTEGRATOR_EXACT;
+    if (wanted->integrator == TC_INTEGRATOR_EXACT)
+        snprintf(stats->integrator_why, sizeof stats->integrator_why, "exact, piece by piece of the function: %s", why);
+    else
+        snprintf(stats->integrator_why, sizeof stats->integrator_why,
+                 "running integrals: a fifth of the error of a 128x128x256 table of half floats, a hundredth of one of "
+                 "8 bits, and faster on llvmpipe");
+    return TC_OK;
+}
+
+static void bind(tc_job *job, const tc_transfer_gpu *t, const tc_render_options *options)
 {
     job->integrator = t->integrator;
     double range = t->scalar[1] - t->scalar[0], width = t->span[1] - t->span[0];
@@ -152,6 +178,8 @@ static void bind(tc_job *job, const tc_transfer_gpu *t)
     }
     job->extend = t->integrator == TC_INTEGRATOR_INTEGRAL && range > 0 &&
                   (t->span[0] > t->scalar[0] || t->span[1] < t->scalar[1]);
+    job->order = options->integral_order == 1 ? 1 : 2;
+    job->split = isfinite(options->integral_split) ? options->integral_split : 0;
     memcpy(job->mean, t->mean, sizeof job->mean);
     for (int k = 0; k < 3; k++) { /* entries sit at texel centres, the end ones on the ends */
         double n = t->size[k];
@@ -163,7 +191,6 @@ static void bind(tc_job *job, const tc_transfer_gpu *t)
     job->grid[0] = t->size[0] - 1;
     job->grid[1] = 1 / job->grid[0];
     job->near = fmax(job->grid[1], NEAR_LEAST);
-    job->pieces = t->pieces;
     job->float_table = t->integrator == TC_INTEGRATOR_TABLE && t->format != TC_TABLE_8;
     job->n_piece = t->size[0];
 }
@@ -222,7 +249,7 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
 {
     const tc_render_options *options = request->options;
     tc_transfer_gpu wanted = {.serial = request->transfer->serial,
-                              .integrator = choose(options, stats),
+                              .integrator = options->integrator,
                               .scalar = {request->scalar[0], request->scalar[1]}};
     find_span(wanted.span, request);
     if (wanted.integrator == TC_INTEGRATOR_TABLE && request->scalar[1] > request->scalar[0])
@@ -235,13 +262,12 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         wanted.length_max = request->length_max > 0 ? request->length_max : 1;
     } else {
         wanted.size[0] = choose_nodes(request->transfer, wanted.span);
-        bool few = request->transfer->n <= PIECES_MOST;
-        /* Data of one value may lie on a step, where nodes hold the mean of both sides. */
-        wanted.pieces = few && (wanted.size[0] > INTERVALS_MOST || !(request->scalar[1] > request->scalar[0]) ||
-                                is_beyond_nodes(request, wanted.span) || needs_pieces(request));
+        tc_status status = choose(&wanted, request, stats, err);
+        if (status != TC_OK)
+            return status;
     }
     bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
-                t->pieces == wanted.pieces && (t->pieces || memcmp(t->size, wanted.size, sizeof t->size) == 0) &&
+                (wanted.integrator == TC_INTEGRATOR_EXACT || memcmp(t->size, wanted.size, sizeof t->size) == 0) &&
                 t->length_max == wanted.length_max && memcmp(t->scalar, wanted.scalar, sizeof t->scalar) == 0;
     tc_status status = TC_OK;
     if (!same) {
@@ -249,16 +275,16 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
         *t = wanted;
         t->serial = 0;
         double start = tc_now_ms();
-        status = wanted.integrator == TC_INTEGRATOR_TABLE ? build_table(t, request, gl, stats, err)
-                 : wanted.pieces                          ? build_pieces(t, request, gl, stats, err)
-                                                          : build_running(t, request, gl, stats, err);
+        status = wanted.integrator == TC_INTEGRATOR_TABLE   ? build_table(t, request, gl, stats, err)
+                 : wanted.integrator == TC_INTEGRATOR_EXACT ? build_pieces(t, request, gl, stats, err)
+                                                            : build_running(t, request, gl, stats, err);
         if (status != TC_OK)
             return status;
         t->serial = wanted.serial;
         double upload = tc_now_ms() - start - stats->ms_table;
         stats->ms_upload = (stats->ms_upload > 0 ? stats->ms_upload : 0) + upload;
     }
-    bind(job, t);
+    bind(job, t, options);
     return status;
 }
 

@@ -20,7 +20,6 @@ typedef struct tc_transfer_gpu {
     tc_integrator integrator;
     tc_table_format format;
     int size[3]; /* of the table; nodes; pieces */
-    bool pieces;
     double scalar[2], length_max, span[2], mean[4];
 } tc_transfer_gpu;
 

@@ -289,12 +289,24 @@ TC_API tc_status tc_image_compare(tc_compare_result *out, const tc_image *a, con
 
 /* ----------------------------------------------------------------------------------------------------- render */
 
-typedef enum tc_integrator { TC_INTEGRATOR_AUTO = 0, TC_INTEGRATOR_TABLE = 1, TC_INTEGRATOR_INTEGRAL = 2 } tc_integrator;
+/* How a segment's colour and opacity are found (docs/architecture.md, "Segment integrals"): TABLE, the 2003 paper's
+ * three-dimensional table; INTEGRAL, one-dimensional running integrals; EXACT, linear piece by linear piece of the
+ * function; AUTO, the cheapest of the last two that is expected to err by less than a quarter of an 8-bit step. */
+typedef enum tc_integrator {
+    TC_INTEGRATOR_AUTO = 0,
+    TC_INTEGRATOR_TABLE = 1,
+    TC_INTEGRATOR_INTEGRAL = 2,
+    TC_INTEGRATOR_EXACT = 3,
+} tc_integrator;
 typedef enum tc_table_format { TC_TABLE_AUTO = 0, TC_TABLE_8 = 8, TC_TABLE_16F = 16, TC_TABLE_32F = 32 } tc_table_format;
 
 /* How a ray finds its way out of a cell. PLANES is the paper's own arithmetic (Weiler et al. 2003, eq. 1 and 2, in float):
  * it loses rays, and is here to be compared with. */
 typedef enum tc_stepper { TC_STEPPER_SIGNS = 0, TC_STEPPER_PLANES = 1 } tc_stepper;
+
+/* Bits of a channel of what rays have gathered so far. */
+typedef enum tc_state_format { TC_STATE_AUTO = 0, TC_STATE_16F = 16, TC_STATE_32F = 32 } tc_state_format;
+enum { TC_SAMPLES_ADAPTIVE = -1 };
 
 typedef struct tc_renderer tc_renderer;
 
@@ -326,7 +338,10 @@ typedef struct tc_render_options {
     int table_size[3];            /* s_front, s_back, length; 0: 128 128 256 */
     tc_table_format table_format;
     double unit_distance;         /* 0: bounds diagonal / cbrt(cells) */
-    double opacity_stop;          /* a ray ends at this alpha; 1: never */
+    int integral_order;           /* of INTEGRAL: 1: a segment has one colour, its mean; 2: with the drift from front to
+                                     back; 0: auto, and INTEGRAL may go on as EXACT where it could not hold its error */
+    double integral_split;        /* of INTEGRAL: segments are cut to at most this optical depth; 0: auto */
+    double opacity_stop;          /* a ray ends at this alpha; 1: never; 0: auto, 0.999, with EXACT 0.9999 */
     int steps_per_pass;           /* K at most; 0: auto; software renderers take fewer where a step may be long */
     int z_update_every;           /* passes between z-locks, 1 … 65536, rounded up to even; 0: auto; -1: never lock */
     bool count;                   /* count steps, fragments per pass (costs time) */
@@ -335,6 +350,9 @@ typedef struct tc_render_options {
                                      not by the driver "reference", which does not walk */
     bool has_nan_color;           /* cells with a value that is not finite show nan_color; otherwise they are transparent */
     double nan_color[4];          /* r, g, b, attenuation per unit distance */
+    int samples;                  /* rays a pixel: 0, 1: one through its middle; 4, 16: through a grid in it, their mean;
+                                     TC_SAMPLES_ADAPTIVE: 4, and 16 where these differ */
+    tc_state_format state_format; /* of colour and opacity between passes; AUTO: 32F */
 } tc_render_options;
 
 TC_API void tc_render_defaults(tc_render_options *options);
@@ -343,6 +361,10 @@ TC_API void tc_render_defaults(tc_render_options *options);
 typedef struct tc_render_stats {
     char context[32], gl_renderer[128], gl_version[64], driver[16], stepper[16], integrator[16];
     char integrator_why[256];
+    double opacity_stop; /* in force; 1: never */
+    int integral_order;  /* in force, -1: none */
+    int samples;         /* rays a pixel: 1, 4, 16 or TC_SAMPLES_ADAPTIVE */
+    int state_bits;      /* a channel of colour and opacity between passes */
     double ms_pack, ms_upload, ms_table, ms_compile, ms_first_hit, ms_march, ms_frame, ms_readback;
     double gpu_bytes_mesh, gpu_bytes_other, gpu_bytes_table, gpu_bytes_state; /* cells + vertices; boundary; tables; state */
     int steps_per_pass, z_update_every, passes, z_updates, layers; /* layers: entries peeled, 1 when convex */

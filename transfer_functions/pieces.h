@@ -1,5 +1,5 @@
 /* pieces.h: a transfer function as its linear pieces, for integrating a segment piece by piece
- * (gpu/shaders/integrate_pieces.glsl).
+ * (gpu/shaders/integrate_exact.glsl).
  *
  * Over x = (s - span[0]) / (span[1] - span[0]). Piece i reaches from x_i to x_{i+1} = its `to`, ascending; the first
  * and the last are constant and reach to -/+ TC_PIECE_FAR, so every x lies in a piece. A step is where two pieces meet

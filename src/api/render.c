@@ -15,7 +15,6 @@ void tc_render_defaults(tc_render_options *options)
 {
     memset(options, 0, sizeof *options);
     options->width = options->height = 512;
-    options->opacity_stop = 0.999;
 }
 
 double tc_default_unit_distance(const tc_mesh *mesh)
@@ -37,8 +36,8 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
     if (options->width < 1 || options->height < 1 || options->width > MAX_SIZE || options->height > MAX_SIZE)
         return tc_fail(err, TC_E_ARG, "an image of %dx%d pixels cannot be made; use 1 to %d each way", options->width,
                        options->height, MAX_SIZE);
-    if (!(options->opacity_stop > 0))
-        return tc_fail(err, TC_E_ARG, "opacity stop %g must be above 0 (1: rays never stop early)",
+    if (!(options->opacity_stop >= 0))
+        return tc_fail(err, TC_E_ARG, "opacity stop %g must not be below 0 (0: chosen; 1: rays never stop early)",
                        options->opacity_stop);
     if (options->unit_distance < 0 || !isfinite(options->unit_distance))
         return tc_fail(err, TC_E_ARG, "unit distance %g must be a positive length", options->unit_distance);
@@ -58,10 +57,40 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
     case TC_INTEGRATOR_AUTO:
     case TC_INTEGRATOR_TABLE:
     case TC_INTEGRATOR_INTEGRAL:
+    case TC_INTEGRATOR_EXACT:
         break;
     default:
-        return tc_fail(err, TC_E_ARG, "integrator %d is unknown; there are %d (auto), %d (table) and %d (integral)",
-                       (int)options->integrator, TC_INTEGRATOR_AUTO, TC_INTEGRATOR_TABLE, TC_INTEGRATOR_INTEGRAL);
+        return tc_fail(err, TC_E_ARG,
+                       "integrator %d is unknown; there are %d (auto), %d (table), %d (integral) and %d (exact)",
+                       (int)options->integrator, TC_INTEGRATOR_AUTO, TC_INTEGRATOR_TABLE, TC_INTEGRATOR_INTEGRAL,
+                       TC_INTEGRATOR_EXACT);
+    }
+    if (options->integral_order < 0 || options->integral_order > 2)
+        return tc_fail(err, TC_E_ARG, "running integrals have no order %d; take 1, 2 or 0 (chosen)",
+                       options->integral_order);
+    if (!(options->integral_split >= 0))
+        return tc_fail(err, TC_E_ARG,
+                       "segments cannot be split at an optical depth of %g; it must be above 0 (0: chosen)",
+                       options->integral_split);
+    switch (options->samples) {
+    case 0:
+    case 1:
+    case 4:
+    case 16:
+    case TC_SAMPLES_ADAPTIVE:
+        break;
+    default:
+        return tc_fail(err, TC_E_ARG, "a pixel cannot have %d rays; take 1, 4, 16 or %d (adaptive)", options->samples,
+                       TC_SAMPLES_ADAPTIVE);
+    }
+    switch ((int)options->state_format) {
+    case TC_STATE_AUTO:
+    case TC_STATE_16F:
+    case TC_STATE_32F:
+        break;
+    default:
+        return tc_fail(err, TC_E_ARG, "state format %d is unknown; there are %d (auto), %d and %d bits a channel",
+                       (int)options->state_format, TC_STATE_AUTO, TC_STATE_16F, TC_STATE_32F);
     }
     switch ((int)options->table_format) {
     case TC_TABLE_AUTO:

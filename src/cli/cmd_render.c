@@ -47,7 +47,11 @@ static void tc_render_set(tc_render_options *out, const tc_render_command *optio
         memcpy(out->table_size, options->table_size, sizeof out->table_size);
     out->table_format = (tc_table_format)options->table_format;
     out->unit_distance = options->unit_distance;
+    out->integral_order = options->integral_order;
+    out->integral_split = options->integral_split;
     out->opacity_stop = options->opacity_stop;
+    out->samples = options->samples;
+    out->state_format = (tc_state_format)options->state_format;
     out->has_nan_color = options->nan_color.there;
     memcpy(out->nan_color, options->nan_color.rgba, sizeof out->nan_color);
     out->stepper = (tc_stepper)options->stepper;

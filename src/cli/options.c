@@ -155,9 +155,9 @@ static int tc_value_set(char *values, tc_talk *talk, const tc_option *option, co
             *(uint64_t *)field = big;
         break;
     case TC_OPTION_REAL:
-        good = tc_parse_real(&real, text) && tc_in_bounds(option, real);
+        good = found || (tc_parse_real(&real, text) && tc_in_bounds(option, real));
         if (good)
-            *(double *)field = real;
+            *(double *)field = found ? (double)number : real;
         break;
     case TC_OPTION_REALS:
         good = tc_parse_reals(field, &number, option->n, text) && number == option->n;

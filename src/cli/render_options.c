@@ -21,8 +21,14 @@ static const tc_choice tc_integrator_choice[] = {
     {"auto", TC_INTEGRATOR_AUTO, false},
     {"table", TC_INTEGRATOR_TABLE, false},
     {"integral", TC_INTEGRATOR_INTEGRAL, false},
-    {"exact", -1, true},
+    {"exact", TC_INTEGRATOR_EXACT, false},
     {NULL, 0, false},
+};
+static const tc_choice tc_samples_choice[] = {
+    {"1", 1, false}, {"4", 4, false}, {"16", 16, false}, {"adaptive", TC_SAMPLES_ADAPTIVE, false}, {NULL, 0, false},
+};
+static const tc_choice tc_state_choice[] = {
+    {"auto", TC_STATE_AUTO, false}, {"16f", TC_STATE_16F, false}, {"32f", TC_STATE_32F, false}, {NULL, 0, false},
 };
 static const tc_choice tc_format_choice[] = {
     {"auto", TC_TABLE_AUTO, false}, {"8", TC_TABLE_8, false}, {"16f", TC_TABLE_16F, false},
@@ -153,10 +159,14 @@ static const tc_option tc_render_option[] = {
     {"--log", 0, NULL, "lay the map over the logarithm of the scalar", TC_OPTION_FLAG, AT(log)},
     {.help = "Method"},
     {"--model", 0, "density-emitter", "how light and matter act", TC_OPTION_CHOICE, AT(model), .choice = tc_model_choice},
-    {"--integrator", 0, "auto|table|integral", "pre-integrated table of the 2003 paper, or running integrals", TC_OPTION_CHOICE, AT(integrator), .choice = tc_integrator_choice},
+    {"--integrator", 0, "auto|table|integral|exact", "pre-integrated table of the 2003 paper, running integrals, or piece by piece of the function", TC_OPTION_CHOICE, AT(integrator), .choice = tc_integrator_choice},
     {"--table-size", 0, "S,S,L", "of the table: front and back scalar, length; default 128,128,256", TC_OPTION_CUSTOM, AT(table_size), .parse = tc_table_size_parse},
     {"--table-format", 0, "auto|8|16f|32f", "bits a channel of the table", TC_OPTION_CHOICE, AT(table_format), .choice = tc_format_choice},
-    {"--opacity-stop", 0, "A", "end a ray at this opacity; 1: never; default 0.999", TC_OPTION_REAL, AT(opacity_stop), .low = 0, .high = 1, .open = true},
+    {"--integral-order", 0, "auto|1|2", "running integrals: one colour a segment, or with its drift", TC_OPTION_INT, AT(integral_order), .low = 1, .high = 2, .choice = tc_auto_choice},
+    {"--integral-split", 0, "T|auto", "running integrals: cut segments to this optical depth", TC_OPTION_REAL, AT(integral_split), .low = 0, .high = 1e9, .open = true, .choice = tc_auto_choice},
+    {"--opacity-stop", 0, "A", "end a ray at this opacity; 1: never; default 0.999, with --integrator exact 0.9999", TC_OPTION_REAL, AT(opacity_stop), .low = 0, .high = 1, .open = true},
+    {"--samples", 0, "1|4|16|adaptive", "rays a pixel; adaptive: 4, and 16 where these differ", TC_OPTION_CHOICE, AT(samples), .choice = tc_samples_choice},
+    {"--state-format", 0, "auto|16f|32f", "bits a channel of what rays carry from pass to pass", TC_OPTION_CHOICE, AT(state_format), .choice = tc_state_choice},
     {"--gl", 0, "auto|osmesa|egl", "how to get an OpenGL context", TC_OPTION_CHOICE, AT(gl_choice), .choice = tc_gl_choice},
     {"--driver", 0, "auto|pingpong|reference", "multi-pass fragment shader, or double precision on the CPU", TC_OPTION_CHOICE, AT(driver_choice), .choice = tc_driver_choice},
     {"--stepper", 0, "signs|planes", "how a ray leaves a cell: exact signs, or, to compare, the paper's plane equations, which lose rays", TC_OPTION_CHOICE, AT(stepper), .choice = tc_stepper_choice},
@@ -297,7 +307,7 @@ int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_comma
         .view_up = {0, 1, 0},
         .view_angle = 30,
         .zoom = 1,
-        .opacity_stop = 0.999,
+        .samples = 1,
         .table_format = (int)defaults.table_format,
         .repeat = 1,
         .seed = 1,

@@ -41,7 +41,11 @@ typedef struct tc_render_command {
     int integrator; /* tc_integrator */
     int table_size[3];
     int table_format; /* tc_table_format */
-    double opacity_stop;
+    int integral_order;    /* 0: auto */
+    double integral_split; /* 0: auto */
+    double opacity_stop;   /* 0: auto */
+    int samples;           /* as of tc_render_options */
+    int state_format;      /* tc_state_format */
 
     const char *gl, *driver;
     int gl_choice, driver_choice;

@@ -165,9 +165,9 @@ static GLuint get(tc_program_cache *cache, const char *vertex, const char *fragm
     char defines[512], alias[128];
     tc_job_defines(defines, sizeof defines, job);
     snprintf(alias, sizeof alias, "integrator.glsl=integrate_%s.glsl%s",
-             job->integrator == TC_INTEGRATOR_TABLE ? "table"
-             : job->pieces                          ? "pieces"
-                                                    : "integral",
+             job->integrator == TC_INTEGRATOR_TABLE   ? "table"
+             : job->integrator == TC_INTEGRATOR_EXACT ? "exact"
+                                                      : "integral",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
     const tc_program_source source = {vertex, fragment, defines, alias};
     GLuint program;
@@ -308,7 +308,10 @@ static void some_shader_does_not_compile(void **state)
         tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
         for (int way = 0; way < 4; way++) {
             tc_job job = job_of(f, &frame);
-            job.pieces = way & 1;
+            if (way & 1 && job.integrator == TC_INTEGRATOR_INTEGRAL)
+                job.integrator = TC_INTEGRATOR_EXACT;
+            job.order = 1 + f % 2;
+            job.split = f % 3 ? 0.5 : 0;
             job.nonfinite = job.nonfinite || way & 1;
             job.software = way & 2;
             get(cache, "screen.vert", "march.frag", &job);

@@ -310,7 +310,7 @@ static void programs_see_a_vertex_at_different_places(void **state)
         {"march.frag", "#define COLOR_HOLDS_DEPTH\n#define CLIP_NEAR\n#define CLIP_FAR\n#define CELL_DATA\n#define TF_EXTEND\n",
          "integrator.glsl=integrate_integral.glsl"},
         {"march.frag", "#define COLOR_HOLDS_DEPTH\n#define HAS_IMAGINARY\n#define SOFTWARE\n",
-         "integrator.glsl=integrate_pieces.glsl"},
+         "integrator.glsl=integrate_exact.glsl"},
     };
     static const char common[] = "#undef main\n"
                                  "uniform int never;\n"

@@ -1,4 +1,4 @@
-// integrate_pieces.glsl: a segment's colour and opacity, linear piece by linear piece of the transfer function
+// integrate_exact.glsl: a segment's colour and opacity, linear piece by linear piece of the transfer function
 // (transfer_functions/pieces.h): for functions with steps and spikes, or so dense that a cell is opaque.
 // Density emitter: Weiler et al. 2003, eq. 3 and 4. Within a piece colour and extinction are linear in the scalar
 // (Williams and Max 1992), so the optical depth q(u) up to the share u of it is quadratic and exact, and by parts
