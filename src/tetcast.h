@@ -39,7 +39,8 @@ typedef enum tc_status {
     TC_E_WORKER = -6, /* a helper program failed */
     TC_E_LOST = -7,   /* a ray was lost: an error of ours, the picture is not to be trusted */
     TC_E_EMPTY = -8,  /* nothing would be seen */
-    TC_E_CANCEL = -9  /* the caller asked to stop */
+    TC_E_CANCEL = -9,  /* the caller asked to stop */
+    TC_E_ACCURACY = -10 /* no setting reaches the error that was asked for */
 } tc_status;
 
 typedef struct tc_error {
@@ -235,6 +236,15 @@ TC_API void tc_transfer_destroy(tc_transfer **tf);
 /* Names of the built-in maps; *n gets their count. */
 TC_API const char *const *tc_transfer_builtin(size_t *n);
 
+/* A function that errors and times are measured with: "smooth", "knots12", "spike" or "steps". */
+typedef struct tc_standard_function {
+    const char *name, *what;
+} tc_standard_function;
+/* All of them; *n gets their count. Static memory. */
+TC_API const tc_standard_function *tc_transfer_standard_list(size_t *n);
+/* Lays one over the data's range [2]. Errors: TC_E_ARG (unknown name: lists them), TC_E_MEMORY. */
+TC_API tc_status tc_transfer_standard(tc_transfer **out, const char *name, const double range[2], tc_error *err);
+
 /* ----------------------------------------------------------------------------------------------------- camera */
 
 /* ParaView's camera. The image's vertical extent is view_angle degrees (perspective) or 2*parallel_scale. */
@@ -351,13 +361,15 @@ typedef struct tc_render_options {
     bool has_nan_color;           /* cells with a value that is not finite show nan_color; otherwise they are transparent */
     double nan_color[4];          /* r, g, b, attenuation per unit distance */
     int samples;                  /* rays a pixel: 0, 1: one through its middle; 4, 16: through a grid in it, their mean;
-                                     TC_SAMPLES_ADAPTIVE: 4, and 16 where these differ */
+                                     TC_SAMPLES_ADAPTIVE: 4, and 16 in their place where they differ by more than
+                                     1/64 in a channel. More than 1: not with audit */
     tc_state_format state_format; /* of colour and opacity between passes; AUTO: 32F */
 } tc_render_options;
 
 TC_API void tc_render_defaults(tc_render_options *options);
 
-/* What a render did. Negative or NaN means: not measured. */
+/* What a render did. Negative or NaN means: not measured. With several rays a pixel times, passes, rays and steps are
+ * sums over all of their frames, and fragments_per_pass goes on from one frame to the next. */
 typedef struct tc_render_stats {
     char context[32], gl_renderer[128], gl_version[64], driver[16], stepper[16], integrator[16];
     char integrator_why[256];
@@ -365,6 +377,7 @@ typedef struct tc_render_stats {
     int integral_order;  /* in force, -1: none */
     int samples;         /* rays a pixel: 1, 4, 16 or TC_SAMPLES_ADAPTIVE */
     int state_bits;      /* a channel of colour and opacity between passes */
+    int64_t refined;     /* adaptive sampling: pixels of 16 rays */
     double ms_pack, ms_upload, ms_table, ms_compile, ms_first_hit, ms_march, ms_frame, ms_readback;
     double gpu_bytes_mesh, gpu_bytes_other, gpu_bytes_table, gpu_bytes_state; /* cells + vertices; boundary; tables; state */
     int steps_per_pass, z_update_every, passes, z_updates, layers; /* layers: entries peeled, 1 when convex */
@@ -417,22 +430,156 @@ static inline uint32_t tc_audit_hash(uint32_t cell)
 TC_API tc_status tc_render_audit(tc_audit_ray *out, tc_renderer *renderer, tc_error *err);
 
 typedef struct tc_verify_result {
-    size_t pixels, ill_posed;
+    size_t pixels, ill_posed; /* that were looked at; of them, ill-posed */
     double max_abs_error, p999_abs_error, mean_abs_error; /* without the ill-posed rays */
     double worst_error_ill_posed;
     int worst_x, worst_y;
     int64_t rays_lost; /* -1 from tc_verify: a picture does not tell; tc_render_stats.rays_lost is the count */
+    double p9999_abs_error; /* as p999_abs_error: at most 1 channel in 10 000 errs by more */
+    size_t n_all;           /* pixels of the picture */
+    double confidence;      /* 0.95: of 100 draws of pixels, at least 95 give a true unseen_share */
+    double unseen_share;    /* of the pixels that were not looked at, at most this share errs by more than max_abs_error and
+                               is not ill-posed; 0 when all were looked at, 1 when nothing can be said; NAN: not a draw */
 } tc_verify_result;
 
 /* Re-traces n pixels of image (before its background; chosen with seed, n >= all pixels: all) with the
  * double-precision reference and compares in float. options and camera are those of the picture; opacity_stop is not
  * applied: the truth has no early end, so the error of stopping is in the result. options->width and height are the
- * picture's. Ill-posed rays, whose true colour jumps when they are shifted by a rounding error, are counted apart.
+ * picture's. A pixel of 4 or 16 rays (options->samples) is compared with the mean of the same rays; one sampled adaptively
+ * with that of 16. Ill-posed rays, whose true colour jumps when they are shifted by a rounding error, are counted apart.
  * Errors: TC_E_ARG (as tc_render; sizes differ), TC_E_MEMORY. Cost: on all cores, O(cells log cells) to build a
  * hierarchy that is not kept (about 130 bytes a tet at the peak), then O(log cells + segments) for each pixel. */
 TC_API tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed, const tc_mesh *mesh,
                            const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options,
                            const tc_log *log, tc_error *err);
+/* tc_verify that also makes an image of the errors, of the picture's size; errors may be NULL. Of a pixel that was looked at
+ * r, g and b hold the absolute errors of these channels, or that of alpha where it is larger: the largest of the three is
+ * the pixel's error. Channels that are not finite hold FLT_MAX. Its alpha is 1 where the pixel was looked at, 0.5 where it
+ * is ill-posed, 0 where it was not looked at. On an error no image is made. */
+TC_API tc_status tc_verify_image(tc_verify_result *out, tc_image **errors, const tc_image *image, size_t n, uint64_t seed,
+                                 const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,
+                                 const tc_render_options *options, const tc_log *log, tc_error *err);
+
+/* ------------------------------------------------------------------------------------------------------ study */
+
+/* One setting of one knob of a study. */
+typedef struct tc_study_setting {
+    const char *knob, *name, *what; /* "table", "table8-128x256", one line; names are unique */
+} tc_study_setting;
+/* All of them, in the order in which a study takes them; *n gets their count. Static memory. */
+TC_API const tc_study_setting *tc_study_settings(size_t *n);
+
+/* What one setting did in one view of one scene. Not measured: NAN, -1, "". */
+typedef struct tc_study_row {
+    char scene[64], function[32];
+    int view; /* from 0 */
+    double azimuth, elevation; /* degrees, from +z */
+    const char *knob, *setting; /* of tc_study_settings */
+    int frames;
+    double ms_median, ms_min, ms_max; /* of tc_render_stats.ms_frame */
+    char truth[8]; /* "ray": through the pixel's middle; "area": mean of 8 x 8 rays over the pixel */
+    int64_t pixels, ill_posed;
+    double max_error, p9999_error, p999_error, mean_error, ill_posed_error; /* the last: worst of the ill-posed */
+    double bytes_table, bytes_state, steps_per_ray;
+    int64_t steps, fragments, rays, rays_lost;
+    int passes, z_updates, steps_per_pass, z_update_every, integral_order, state_bits;
+    double opacity_stop;
+    char integrator[16], driver[16], stepper[16], reentry[16], samples[12];
+    char note[192]; /* why something was not measured, or what is special */
+} tc_study_row;
+
+typedef struct tc_study_options {
+    const char *folder;  /* of the results; made, but not its parents */
+    bool restart;        /* forget what an earlier study left in it */
+    const char *request; /* what else the results depend on, in the caller's words (inputs, fields); NULL: nothing */
+    const char *knobs;   /* comma-separated knobs and settings; NULL: all. "default" is always among them */
+    int width, height;   /* 0: 256 */
+    int views;           /* 0: 8 */
+    int frames;          /* timed of each setting and view; 0: 5 */
+    size_t verify;       /* pixels a view, chosen with seed; 0: all */
+    uint64_t seed;
+    double unit_distance; /* as of tc_render_options */
+    const char *gl;       /* as of tc_renderer_options; a GL context is needed */
+    int threads;          /* 0: all cores */
+    int n_scene;          /* pairs of mesh and function that will be given, for progress; 0: not known */
+    bool (*row)(void *user, const tc_study_row *row); /* called after each row is written; false: stop. May be NULL */
+    void *user;
+} tc_study_options;
+
+typedef struct tc_study tc_study;
+
+/* Opens a folder of results, new or to go on with. What is in it stays valid whenever the process ends: rows are written
+ * whole, view by view, to results.csv. options is copied, log borrowed until tc_study_close.
+ * Errors: TC_E_ARG (an unknown knob, a size; the folder holds a study that was asked for otherwise), TC_E_FILE,
+ * TC_E_GL, TC_E_MEMORY. */
+TC_API tc_status tc_study_open(tc_study **out, const tc_study_options *options, const tc_log *log, tc_error *err);
+/* Is there nothing left to measure of this pair? Then its mesh is not needed. */
+TC_API bool tc_study_has(const tc_study *study, const char *scene, const char *function);
+/* Measures every setting in every view: frames of one view are interleaved over the settings, so that what else the
+ * machine does hits all of them alike. scene and function name the results (letters, digits, ._-; others become _).
+ * mesh must be prepared, range of its values finite; its gaps are prepared anew where a knob asks for it and in the end
+ * as they were. Errors: as tc_render and tc_verify; TC_E_CANCEL (row said so). Cost: see docs/accuracy.md. */
+TC_API tc_status tc_study_scene(tc_study *study, const char *scene, tc_mesh *mesh, const char *function,
+                                const tc_transfer *tf, tc_error *err);
+/* Writes summary.csv (a row for each pair and setting: medians and maxima over the views, and whether it is on the
+ * front of error against time), study.json, and the data and gnuplot scripts of the plots. *plots gets the number of
+ * scripts, plot-0 … in tc_study_plot. Errors: TC_E_FILE, TC_E_MEMORY. */
+TC_API tc_status tc_study_report(tc_study *study, size_t *plots, tc_error *err);
+/* Name of a script's file in the folder, NULL beyond the last. */
+TC_API const char *tc_study_plot(const tc_study *study, size_t i);
+TC_API void tc_study_close(tc_study **study);
+
+/* ----------------------------------------------------------------------------------------------------- choose */
+
+/* An error or a frame time to stay below, instead of knobs; at least one of them. */
+typedef struct tc_choose_request {
+    double error;      /* largest difference of a channel from the truth, 0 … 1, that a pixel may have; 0: any */
+    double frame_ms;   /* milliseconds a frame may take; 0: any */
+    size_t verify;     /* pixels of the picture that are traced again by the reference; 0: 4096 */
+    uint64_t seed;     /* of these pixels */
+    int threads;       /* 0: all cores */
+    bool no_cache;     /* measure anew, keep nothing */
+    const char *cache; /* folder of what is kept; NULL: $TETCAST_CACHE, else $XDG_CACHE_HOME/tetcast, else ~/.cache/tetcast */
+} tc_choose_request;
+
+/* What was chosen, and why. Not measured: NAN. */
+typedef struct tc_choose_report {
+    char setting[128]; /* "running integrals of second order, opacity stop 0.998" */
+    char why[512];     /* one sentence, with the numbers */
+    bool cached;       /* the calibration was kept by an earlier run */
+    bool in_time;      /* no frame_ms was asked for, or it is kept */
+    size_t rays;       /* of the calibration */
+    int candidates;    /* settings that were calibrated */
+    int tried;         /* pictures that were checked until one held */
+    double calibrated_error; /* of the setting, largest over the rays of the calibration */
+    double ms_calibrate;     /* that the calibration took, in this run or an earlier one */
+    double ms;               /* of a frame with the setting: median of a few */
+    double margin;     /* of the budget that is kept back for noise: a setting fits whose median is below (1 - margin) T */
+    double best_error, best_ms;   /* of the most accurate setting; best_ms where it was timed */
+    char best_setting[128];
+    double error;            /* of the picture with the setting: largest of the sampled pixels and the suspects */
+    tc_verify_result verify; /* of the sampled pixels, as of tc_verify */
+    size_t suspects;         /* pixels that were traced besides: those that differ most, of all, from the picture of the most
+                                accurate setting */
+} tc_choose_report;
+
+/* Chooses integrator, order, split and opacity stop for this mesh, function and view. What options decides is kept:
+ * an integrator other than AUTO, and of the others each that is not 0. In: size, samples and whatever else is to hold; out:
+ * the chosen knobs. All settings are calibrated once for a mesh and a function: their largest error against the reference over
+ * three views (camera, and two of the whole mesh across it) in small pictures; the result is kept in a file of a few
+ * kilobytes.
+ *   error:    the cheapest by measured frame time of the settings whose calibrated error is below it by a margin. The
+ *             picture is then made and checked; a setting that fails is followed by the next one.
+ *   frame_ms: the most accurate setting whose median frame time, in this view and size, is below it by a margin; where
+ *             none is, the fastest, with a warning to log.
+ *   both:     the error is kept; where that takes longer than frame_ms in_time is false, with a warning to log.
+ * The driver "reference" has nothing to choose: its picture is checked against the error all the same.
+ * Errors: as tc_render; TC_E_ARG (neither or a wrong one was asked for); TC_E_ACCURACY (no setting reaches the error: says
+ * which error can be reached and what that takes; options stays as it was). Cost: a calibration takes a second or a few on
+ * a mesh of 10^5 tets; the check of a picture a few frames and 4096 rays of the reference. */
+TC_API tc_status tc_choose(tc_render_options *options, tc_choose_report *report, tc_renderer *renderer,
+                           const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,
+                           const tc_choose_request *request, const tc_log *log, tc_error *err);
 
 /* One context or driver of this build. */
 typedef struct tc_backend_info {

@@ -3,11 +3,13 @@
 
 #include <string.h>
 
-tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed, const tc_mesh *mesh,
-                    const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options, const tc_log *log,
-                    tc_error *err)
+tc_status tc_verify_image(tc_verify_result *out, tc_image **errors, const tc_image *image, size_t n, uint64_t seed,
+                          const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,
+                          const tc_render_options *options, const tc_log *log, tc_error *err)
 {
     memset(out, 0, sizeof *out);
+    if (errors)
+        *errors = NULL;
     tc_rays rays;
     double unit;
     tc_status status = tc_render_resolve(&unit, &rays, mesh, tf, camera, options, err);
@@ -15,13 +17,26 @@ tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint
         status = tc_fail(err, TC_E_ARG, "the picture is %dx%d, the options say %dx%d", image->width, image->height,
                          options->width, options->height);
     tc_reference *reference = NULL;
+    if (status == TC_OK && errors)
+        status = tc_image_create(errors, image->width, image->height, err);
     if (status == TC_OK)
         status = tc_reference_create(&reference, mesh, 0, err);
     if (status == TC_OK) {
         tc_reference_set_nan_color(reference, options->has_nan_color ? options->nan_color : NULL);
-        status = tc_reference_verify(out, image, n, seed, reference, tf, unit, &rays, 0, log, err);
+        tc_reference_set_samples(reference, options->samples);
+        status =
+            tc_reference_verify(out, errors ? *errors : NULL, image, n, seed, reference, tf, unit, &rays, 0, log, err);
     }
     out->rays_lost = -1; /* a picture does not tell */
     tc_reference_destroy(&reference);
+    if (status != TC_OK && errors)
+        tc_image_destroy(errors);
     return status;
+}
+
+tc_status tc_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed, const tc_mesh *mesh,
+                    const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options, const tc_log *log,
+                    tc_error *err)
+{
+    return tc_verify_image(out, NULL, image, n, seed, mesh, tf, camera, options, log, err);
 }

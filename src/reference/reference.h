@@ -43,7 +43,18 @@ typedef struct tc_reference_ray {
 tc_status tc_reference_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
                              const double origin[3], const double direction[3], const double range[2], int worker);
 
-/* Every pixel. log: progress only, from the calling thread. Errors: TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
+/* Pixels have this many rays from now on: as tc_render_options.samples. Not while rays are traced. */
+void tc_reference_set_samples(tc_reference *reference, int samples);
+
+/* The pixel whose middle is (X, Y) in the coordinates of rays: the mean of its rays, of tc_reference_set_samples.
+ * Adaptive: by how the reference's own first rays differ (samples.h).
+ *   out [4]: r, g, b, alpha; worker as in tc_reference_trace
+ * Errors: as tc_reference_trace. Cost: that of its rays. */
+tc_status tc_reference_pixel(double *out, const tc_reference *reference, const tc_transfer *tf, double unit,
+                             const tc_rays *rays, double X, double Y, int worker);
+
+/* Every pixel, with as many rays as tc_reference_set_samples said. log: progress only, from the calling thread.
+ * Errors: TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
 tc_status tc_reference_render(tc_image *image, const tc_reference *reference, const tc_transfer *tf, double unit,
                               const tc_rays *rays, int threads, const tc_log *log, tc_error *err);
 
@@ -53,14 +64,16 @@ tc_status tc_reference_render(tc_image *image, const tc_reference *reference, co
 void tc_reference_segment(double out[4], const tc_transfer *tf, double s0, double s1, double l);
 
 /* Compares n pixels of image (drawn without repetition from seed; n >= all: all) with the reference, channel by
- * channel, float against double. worst_x, worst_y: the image's column and row (row 0 at the top). rays_lost stays 0.
- * Ill-posed rays are counted and left out of max, p999 and mean: their reference colour
+ * channel, float against double; with as many rays a pixel as tc_reference_set_samples said (adaptive: 16). worst_x,
+ * worst_y: the image's column and row (row 0 at the top). rays_lost stays 0. errors: as in tc_truth_compare; may be NULL.
+ * Ill-posed rays are counted and left out of max, p999, p9999 and mean: their reference colour
  * moves by more than 1/1020 in a channel when the ray is shifted by 2^-22 of the diagonal to any of four sides or as
  * far along both to any of four corners, all scalars by 2^-22 of their range up or down, or, where
- * tets overlap, runs of them by 2^-22 of the diagonal against each other. Only rays whose error
+ * tets overlap, runs of them by 2^-22 of the diagonal against each other (all moves: ill_posed.c). Only rays whose error
  * exceeds 1/1020 are asked: others could not raise the maximum above it. A channel that is not finite counts as an
- * error of FLT_MAX and is never ill-posed. Errors: TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
-tc_status tc_reference_verify(tc_verify_result *out, const tc_image *image, size_t n, uint64_t seed,
+ * error of FLT_MAX and is never ill-posed. Many pictures of one view: truth.h.
+ * Errors: TC_E_MEMORY; TC_E_ARG (sizes differ, unit <= 0). */
+tc_status tc_reference_verify(tc_verify_result *out, tc_image *errors, const tc_image *image, size_t n, uint64_t seed,
                               const tc_reference *reference, const tc_transfer *tf, double unit, const tc_rays *rays,
                               int threads, const tc_log *log, tc_error *err);
 

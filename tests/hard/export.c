@@ -69,7 +69,7 @@ static tc_status export_case(const char *stem, const char *name, const hard_mesh
         status = tc_render(&ours, NULL, renderer, mesh->mesh, f->tf, &view->camera, &options, NULL, err);
     if (status == TC_OK)
         status =
-            tc_reference_verify(&judged, ours, SIZE_MAX, 1, mesh->reference, f->tf, mesh->unit, &rays, 0, NULL, err);
+            tc_reference_verify(&judged, NULL, ours, SIZE_MAX, 1, mesh->reference, f->tf, mesh->unit, &rays, 0, NULL, err);
     if (status == TC_OK) {
         snprintf(path, sizeof path, "%s.reference.rgba", stem);
         status = write_pixels(path, truth, err);

@@ -257,7 +257,7 @@ static void judge_by_reference(hard_result *r, const hard_mesh *mesh, const hard
 {
     tc_verify_result v;
     tc_error err = {0};
-    tc_status status = tc_reference_verify(&v, picture->image, n, 1, mesh->reference, function->tf, mesh->unit,
+    tc_status status = tc_reference_verify(&v, NULL, picture->image, n, 1, mesh->reference, function->tf, mesh->unit,
                                            &picture->rays, 0, NULL, &err);
     if (status != TC_OK) {
         hard_fail(r, "%s", err.text);

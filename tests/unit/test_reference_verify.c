@@ -53,7 +53,7 @@ static tc_verify_result verify(scene *s, size_t n, uint64_t seed, int threads)
     tc_verify_result v;
     tc_error err;
     memset(&v, 0x55, sizeof v);
-    if (tc_reference_verify(&v, &s->image, n, seed, s->reference, &s->tf, 1, &s->rays, threads, NULL, &err) != TC_OK)
+    if (tc_reference_verify(&v, NULL, &s->image, n, seed, s->reference, &s->tf, 1, &s->rays, threads, NULL, &err) != TC_OK)
         fail_msg("%s", err.text);
     return v;
 }
@@ -247,7 +247,7 @@ static void ray_in_the_side_of_one_of_two_cells_counts_as_an_error(void **state)
             tc_image image = {1, 1, pixel};
             tc_verify_result v;
             tc_error err;
-            if (tc_reference_verify(&v, &image, 1, 1, reference, &tf, 1, &rays, 1, NULL, &err) != TC_OK)
+            if (tc_reference_verify(&v, NULL, &image, 1, 1, reference, &tf, 1, &rays, 1, NULL, &err) != TC_OK)
                 fail_msg("%s", err.text);
             assert_true(v.max_abs_error < 1e-6);
         }
@@ -330,10 +330,10 @@ static void bad_arguments_are_accepted(void **state)
     tc_image other = {W, H - 1, s.pixels};
     assert_int_equal(tc_reference_render(&other, s.reference, &s.tf, 1, &s.rays, 1, NULL, &err), TC_E_ARG);
     assert_non_null(strstr(err.text, "24 x 15"));
-    assert_int_equal(tc_reference_verify(&v, &other, 1, 0, s.reference, &s.tf, 1, &s.rays, 1, NULL, &err), TC_E_ARG);
+    assert_int_equal(tc_reference_verify(&v, NULL, &other, 1, 0, s.reference, &s.tf, 1, &s.rays, 1, NULL, &err), TC_E_ARG);
     assert_int_equal(tc_reference_render(&s.image, s.reference, &s.tf, 0, &s.rays, 1, NULL, &err), TC_E_ARG);
     assert_non_null(strstr(err.text, "unit distance 0"));
-    assert_int_equal(tc_reference_verify(&v, &s.image, 1, 0, s.reference, &s.tf, NAN, &s.rays, 1, NULL, &err),
+    assert_int_equal(tc_reference_verify(&v, NULL, &s.image, 1, 0, s.reference, &s.tf, NAN, &s.rays, 1, NULL, &err),
                      TC_E_ARG);
     tc_reference_ray ray;
     const double o[3] = {0, 0, 3}, d[3] = {0, 0, -1};
@@ -372,7 +372,7 @@ static void progress_runs_backwards_or_is_silent(void **state)
     NEAR(t.last, 1, 0);
     t = (talk){0, 0};
     tc_verify_result v;
-    assert_int_equal(tc_reference_verify(&v, &s.image, W * H, 1, s.reference, &s.tf, 1, &s.rays, 1, &log, NULL), TC_OK);
+    assert_int_equal(tc_reference_verify(&v, NULL, &s.image, W * H, 1, s.reference, &s.tf, 1, &s.rays, 1, &log, NULL), TC_OK);
     assert_true(t.calls > 1);
     NEAR(t.last, 1, 0);
     scene_finish(&s);
