@@ -47,3 +47,21 @@ tc_status tc_audit_read(tc_audit_ray *out, const tc_state *s, const tc_gl *gl, d
     free(audit);
     return tc_gl_check(gl, "reading the audit back", err);
 }
+
+tc_status tc_audit_steps(tc_render_stats *stats, const tc_state *s, const tc_gl *gl, tc_error *err)
+{
+    size_t n = (size_t)s->width * (size_t)s->height;
+    uint32_t *steps = tc_alloc(n, sizeof *steps);
+    if (!steps)
+        return tc_fail_memory(err, "the counted steps", n, sizeof *steps);
+    gl->BindTexture(GL_TEXTURE_2D, s->set[0].steps);
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl->GetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, steps);
+    for (size_t i = 0; i < n; i++) {
+        stats->steps += steps[i];
+        if (steps[i] > stats->steps_max)
+            stats->steps_max = steps[i];
+    }
+    free(steps);
+    return TC_OK;
+}

@@ -4,6 +4,8 @@
 #include "gpu/pass.h"
 
 #include <stddef.h>
+#include <stdio.h>
+#include <string.h>
 
 /* Proposals → vertex buffer; once a frame. */
 static void upload_proposals(const tc_job *job)
@@ -19,10 +21,18 @@ static void upload_proposals(const tc_job *job)
     gl->BindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
+void tc_first_hit_defines(char *out, size_t capacity, const tc_job *job)
+{
+    tc_job_defines(out, capacity, job);
+    size_t n = strlen(out);
+    if (job->masked)
+        snprintf(out + n, capacity - n, "#define SAMPLE_MASK\n");
+}
+
 static tc_status get_program(GLuint *program, const tc_job *job, tc_error *err)
 {
     char defines[512];
-    tc_job_defines(defines, sizeof defines, job);
+    tc_first_hit_defines(defines, sizeof defines, job);
     const tc_program_source source = {"first_hit.vert", "first_hit.frag", defines, NULL};
     return tc_program_get(program, job->programs, &source, err);
 }
@@ -77,6 +87,8 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
         tc_pass_texture(gl, program, "state_color", 5, GL_TEXTURE_2D, s->set[0].color);
         tc_pass_float(gl, program, "transmittance_stop", job->transmittance_stop);
     }
+    if (job->masked)
+        tc_pass_texture(gl, program, "sample_mask", 7, GL_TEXTURE_2D, s->mask);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_LESS);
     if (job->proposals->n > 0)

@@ -5,6 +5,8 @@
 
 #include "gpu/job.h"
 
+/* tc_job_defines, and SAMPLE_MASK where only marked pixels have a ray. */
+void tc_first_hit_defines(char *out, size_t capacity, const tc_job *job);
 /* Compiles the program. Errors: TC_E_GL. */
 tc_status tc_first_hit_compile(const tc_job *job, tc_error *err);
 /* Writes walk and at of state set 0: the entry of each ray, cell -1 where there is none. layer 0: the first entry;

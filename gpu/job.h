@@ -42,6 +42,7 @@ typedef struct tc_job {
     bool count, audit;                  /* audit counts as well */
     bool planes;                        /* the stepper is the paper's arithmetic: stepper_planes.glsl, */
     double longest;                     /* … which needs to know the longest edge of the real cells, in mesh space */
+    bool masked;                        /* only the pixels that state->mask marks have a ray */
     bool software;                      /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
 } tc_job;
 

@@ -5,7 +5,7 @@
 #include "core/parallel.h"
 #include "gpu/audit.h"
 #include "gpu/pass.h"
-#include "gpu/pingpong.h"
+#include "gpu/picture.h"
 #include "gpu/transfer_gpu.h"
 #include "gpu/watch.h"
 
@@ -140,8 +140,7 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, bool plane
 static tc_status ensure_state(tc_gpu_renderer *r, const tc_render_options *options, bool peeling, tc_error *err)
 {
     tc_state *s = &r->state;
-    if (s->width == options->width && s->height == options->height && s->peeling == peeling &&
-        s->counting == (options->count || options->audit) && s->auditing == options->audit)
+    if (tc_state_fits(s, options, peeling))
         return TC_OK;
     tc_state_finish(s, &r->context->gl);
     r->drawn[0] = r->drawn[1] = 0; /* a new result holds anything */
@@ -191,59 +190,7 @@ static tc_status count_broken(tc_render_stats *stats, tc_gpu_renderer *r, tc_err
     return status;
 }
 
-static void count_steps(tc_render_stats *stats, tc_gpu_renderer *r)
-{
-    const tc_gl *gl = &r->context->gl;
-    size_t n = (size_t)r->state.width * (size_t)r->state.height;
-    uint32_t *steps = tc_alloc(n, sizeof *steps);
-    if (!steps)
-        return;
-    gl->BindTexture(GL_TEXTURE_2D, r->state.set[0].steps);
-    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl->GetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, steps);
-    stats->steps = 0;
-    stats->steps_max = 0;
-    for (size_t i = 0; i < n; i++) {
-        stats->steps += steps[i];
-        if (steps[i] > stats->steps_max)
-            stats->steps_max = steps[i];
-    }
-    free(steps);
-}
-
-/* Limits drawing and clearing to a rectangle of pixels. */
-static void set_scissor(const tc_gl *gl, const int *rect)
-{
-    gl->Scissor(rect[0], rect[1], rect[2], rect[3]);
-}
-
-static tc_status resolve(tc_gpu_renderer *r, const tc_job *job, tc_error *err)
-{
-    const tc_gl *gl = &r->context->gl;
-    const char *defines = job->integrator != TC_INTEGRATOR_TABLE ? "#define COLOR_HOLDS_DEPTH\n" : "";
-    const tc_program_source source = {"screen.vert", "resolve.frag", defines, NULL};
-    GLuint program;
-    tc_status status = tc_program_get(&program, r->programs, &source, err);
-    if (status != TC_OK)
-        return status;
-    gl->BindFramebuffer(GL_FRAMEBUFFER, r->state.result_framebuffer);
-    gl->Viewport(0, 0, r->state.width, r->state.height);
-    const GLfloat empty[4] = {0, 0, 0, 0};
-    set_scissor(gl, r->drawn); /* what the last frame left */
-    gl->ClearBufferfv(GL_COLOR, 0, empty);
-    set_scissor(gl, job->proposals->rect);
-    memcpy(r->drawn, job->proposals->rect, sizeof r->drawn);
-    gl->Disable(GL_DEPTH_TEST);
-    gl->UseProgram(program);
-    tc_pass_texture(gl, program, "state_color", 0, GL_TEXTURE_2D, r->state.set[0].color);
-    gl->Uniform3f(gl->GetUniformLocation(program, "color_most"), (float)job->most[0], (float)job->most[1],
-                  (float)job->most[2]);
-    tc_pass_screen(gl);
-    gl->Finish();
-    return tc_gl_check(gl, "resolving the picture", err);
-}
-
-static void fill_stats(tc_render_stats *stats, tc_gpu_renderer *r, const tc_job *job, const tc_job_result *result)
+static void fill_stats(tc_render_stats *stats, const tc_gpu_renderer *r, const tc_job *job, const tc_job_result *result)
 {
     snprintf(stats->context, sizeof stats->context, "%s", r->context->kind->name);
     snprintf(stats->gl_renderer, sizeof stats->gl_renderer, "%s", r->context->gl.renderer);
@@ -256,8 +203,7 @@ static void fill_stats(tc_render_stats *stats, tc_gpu_renderer *r, const tc_job 
                                                       : "integral");
     stats->integral_order = job->integrator == TC_INTEGRATOR_INTEGRAL ? job->order : -1;
     stats->opacity_stop = job->transmittance_stop < 0 ? 1 : 1 - job->transmittance_stop;
-    stats->samples = 1;
-    stats->state_bits = 32;
+    stats->state_bits = r->state.color_bits;
     stats->gpu_bytes_mesh =
         (double)(r->mesh.cells.bytes + r->mesh.vertices.bytes + r->mesh.planes_vertices.bytes +
                  r->mesh.planes_normals.bytes + r->mesh.planes_neighbours.bytes + r->mesh.planes_scalars.bytes);
@@ -288,32 +234,19 @@ static void find_most(double most[3], const tc_transfer *tf, const double *nan_c
     }
 }
 
-/* Steps are read as a whole, also where nothing is drawn. */
-static void clear_steps(const tc_job *job)
-{
-    const GLuint none[4] = {0, 0, 0, 0};
-    if (!job->count)
-        return;
-    job->gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->set[0].framebuffer);
-    job->gl->ClearBufferuiv(GL_COLOR, 3, none);
-}
-
-/* The frame again by peeling: rounding may fold a convex hull, so that a ray along its side enters it more than once.
+/* The picture again by peeling: rounding may fold a convex hull, so that a ray along its side enters it more than once.
  */
-static tc_status peel_frame(tc_job_result *result, tc_gpu_renderer *r, tc_job *job, const tc_render_options *options,
-                            tc_error *err)
+static tc_status peel_picture(tc_picture *picture, tc_gpu_renderer *r, tc_error *err)
 {
-    const tc_gl *gl = job->gl;
-    free(result->fragments);
-    job->peel = true;
+    const tc_gl *gl = picture->job->gl;
+    tc_say(picture->log, TC_DEBUG, "%lld further entries into the hull, where rounding folds it: the frame is peeled",
+           (long long)picture->result.twice);
+    picture->job->peel = true;
     gl->Disable(GL_SCISSOR_TEST);
-    tc_status status = ensure_state(r, options, true, err);
-    if (status == TC_OK) {
-        clear_steps(job);
-        status = tc_pingpong_compile(job, err);
-    }
-    gl->Enable(GL_SCISSOR_TEST);
-    return status == TC_OK ? tc_pingpong_frame(result, job, err) : status;
+    tc_status status = ensure_state(r, picture->options, true, err);
+    if (status == TC_OK)
+        status = tc_picture_compile(picture, err);
+    return status == TC_OK ? tc_picture_make(picture, err) : status;
 }
 
 tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu_frame *frame, tc_error *err)
@@ -358,9 +291,6 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     if (status != TC_OK)
         return status;
 
-    tc_frame rays;
-    tc_frame_build(&rays, frame->rays, r->center, r->scale);
-    job.frame = &rays;
     job.transfer = &r->transfer.textures;
     job.has_imaginary = mesh->n_imaginary > 0;
     job.peel = peel;
@@ -386,41 +316,35 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.hit_buffer = r->hit_buffer;
     job.entry_counter = r->entry_counter;
 
-    clear_steps(&job);
-    status = tc_pingpong_compile(&job, err);
+    tc_picture picture = {.job = &job,
+                          .rays = frame->rays,
+                          .options = options,
+                          .log = frame->log,
+                          .center = r->center,
+                          .scale = r->scale,
+                          .face_corner = r->face_corner,
+                          .proposals = &r->proposals,
+                          .drawn = r->drawn,
+                          .stats = stats};
+    status = tc_picture_compile(&picture, err);
     if (status != TC_OK)
         return status;
     double start = tc_now_ms();
-    tc_job_result result = {0};
-    r->proposals.n = 0;
-    memset(r->proposals.rect, 0, sizeof r->proposals.rect);
-    if (!rays.hidden)
-        status = tc_propose(&r->proposals, &rays, options->width, options->height, r->face_corner, r->mesh.n_face, err);
-    double ms_propose = tc_now_ms() - start;
-    gl->Enable(GL_SCISSOR_TEST); /* nothing is done where no face is seen */
-    set_scissor(gl, r->proposals.rect);
-    if (status == TC_OK)
-        status = tc_pingpong_frame(&result, &job, err);
-    if (status == TC_OK && result.twice > 0) {
-        tc_say(frame->log, TC_DEBUG, "%lld further entries into the hull, where rounding folds it: the frame is peeled",
-               (long long)result.twice);
-        status = peel_frame(&result, r, &job, options, err);
-    }
-    result.ms_first_hit += ms_propose;
-    if (status == TC_OK)
-        status = resolve(r, &job, err);
-    stats->ms_frame = tc_now_ms() - start;
+    status = tc_picture_make(&picture, err);
+    if (status == TC_OK && picture.result.twice > 0)
+        status = peel_picture(&picture, r, err);
+    stats->ms_frame = tc_now_ms() - start - picture.ms_aside;
     gl->Disable(GL_SCISSOR_TEST);
     stats->ms_compile = tc_program_cache_ms(r->programs) - compile_before;
     tc_gl_watch_say(gl, frame->log);
+    const tc_job_result result = picture.result;
     if (status == TC_OK)
         fill_stats(stats, r, &job, &result);
     if (status == TC_OK && job.count) {
         free(r->fragments);
         r->fragments = result.fragments;
         stats->fragments_per_pass = r->fragments;
-        stats->n_fragments_per_pass = (size_t)result.passes;
-        count_steps(stats, r);
+        stats->n_fragments_per_pass = result.fragments ? (size_t)result.passes : 0;
     } else {
         free(result.fragments);
     }

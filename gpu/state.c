@@ -72,6 +72,30 @@ static void poison_depth(const tc_gl *gl, GLuint framebuffer_name)
     gl->DepthMask(GL_FALSE);
 }
 
+static int bits_of(const tc_render_options *options)
+{
+    return options->state_format == TC_STATE_16F ? 16 : 32;
+}
+
+bool tc_state_fits(const tc_state *s, const tc_render_options *options, bool peeling)
+{
+    return s->width == options->width && s->height == options->height && s->peeling == peeling &&
+           s->counting == (options->count || options->audit) && s->auditing == options->audit &&
+           s->adaptive == (options->samples == TC_SAMPLES_ADAPTIVE) && s->color_bits == bits_of(options);
+}
+
+/* What adaptive sampling needs besides. */
+static tc_status create_mask(tc_state *s, const tc_gl *gl, tc_error *err)
+{
+    for (int i = 0; i < 2; i++)
+        s->spread[i] = screen_texture(s, gl, GL_RGBA32F, GL_RGBA, GL_FLOAT);
+    s->mask = screen_texture(s, gl, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE);
+    s->bytes += (size_t)s->width * (size_t)s->height * 33;
+    const GLuint textures[2] = {s->result, s->mask};
+    tc_status status = framebuffer(&s->spread_framebuffer, s, gl, s->spread, 2, 0, err);
+    return status == TC_OK ? framebuffer(&s->mask_framebuffer, s, gl, textures, 2, 0, err) : status;
+}
+
 tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options *options, bool peeling, tc_error *err)
 {
     int width = options->width, height = options->height;
@@ -85,6 +109,8 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options 
     s->counting = counting;
     s->auditing = options->audit;
     s->peeling = peeling;
+    s->adaptive = options->samples == TC_SAMPLES_ADAPTIVE;
+    s->color_bits = bits_of(options);
     size_t pixels = (size_t)width * (size_t)height;
     s->lock = depth_buffer(s, gl);
     s->hit_depth = depth_buffer(s, gl);
@@ -93,7 +119,7 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options 
     for (int i = 0; i < 2 && status == TC_OK; i++) {
         tc_state_set *set = &s->set[i];
         set->walk = screen_texture(s, gl, GL_RGBA32I, GL_RGBA_INTEGER, GL_INT);
-        set->color = screen_texture(s, gl, GL_RGBA32F, GL_RGBA, GL_FLOAT);
+        set->color = screen_texture(s, gl, s->color_bits == 16 ? GL_RGBA16F : GL_RGBA32F, GL_RGBA, GL_FLOAT);
         set->at = screen_texture(s, gl, GL_RG32F, GL_RG, GL_FLOAT);
         if (counting)
             set->steps = screen_texture(s, gl, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
@@ -102,7 +128,7 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options 
         GLuint textures[5] = {set->walk, set->color, set->at, set->steps, set->audit};
         int n = s->auditing ? 5 : counting ? 4 : 3;
         status = framebuffer(&set->framebuffer, s, gl, textures, n, s->lock, err);
-        s->bytes += pixels * (40 + (counting ? 4 : 0) + (s->auditing ? 16 : 0));
+        s->bytes += pixels * (size_t)(24 + s->color_bits / 2 + (counting ? 4 : 0) + (s->auditing ? 16 : 0));
     }
     for (int i = 0; i < (peeling ? 2 : 1) && status == TC_OK; i++) {
         if (peeling) {
@@ -119,6 +145,8 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options 
         s->bytes += pixels * 16;
         status = framebuffer(&s->result_framebuffer, s, gl, &s->result, 1, 0, err);
     }
+    if (status == TC_OK && s->adaptive)
+        status = create_mask(s, gl, err);
     if (status == TC_OK && gl->poison)
         poison_color(gl, s->result_framebuffer, 0, GL_FLOAT);
     if (status == TC_OK)
@@ -140,8 +168,10 @@ void tc_state_finish(tc_state *s, const tc_gl *gl)
     gl->DeleteFramebuffers(1, &s->lock_framebuffer);
     gl->DeleteRenderbuffers(1, &s->lock);
     gl->DeleteRenderbuffers(1, &s->hit_depth);
-    gl->DeleteTextures(1, &s->result);
-    gl->DeleteFramebuffers(1, &s->result_framebuffer);
+    const GLuint textures[4] = {s->result, s->spread[0], s->spread[1], s->mask};
+    const GLuint framebuffers[3] = {s->result_framebuffer, s->spread_framebuffer, s->mask_framebuffer};
+    gl->DeleteTextures(4, textures);
+    gl->DeleteFramebuffers(3, framebuffers);
     memset(s, 0, sizeof *s);
 }
 
@@ -154,6 +184,10 @@ void tc_state_poison(const tc_state *s, const tc_gl *gl)
             poison_color(gl, s->set[i].framebuffer, k, types[k]);
     for (int i = 0; i < 2 && s->peeling; i++)
         poison_color(gl, s->hit_framebuffer[i], 2, GL_INT);
+    for (int i = 0; i < 2 && s->adaptive; i++)
+        poison_color(gl, s->spread_framebuffer, i, GL_FLOAT);
+    if (s->adaptive)
+        poison_color(gl, s->mask_framebuffer, 1, GL_UNSIGNED_INT);
     poison_depth(gl, s->hit_framebuffer[0]);
     poison_depth(gl, s->lock_framebuffer);
 }

@@ -7,7 +7,7 @@
 
 typedef struct tc_state_set {
     GLuint walk;        /* RGBA32I: cell, face's vertices */
-    GLuint color;       /* RGBA32F: colour, optical depth or transmittance */
+    GLuint color;       /* RGBA32F or RGBA16F: colour, optical depth or transmittance */
     GLuint at;          /* RG32F: depth, scalar */
     GLuint steps;       /* R32UI, only when counting */
     GLuint audit;       /* RGBA32UI: length and length in real cells (float bits), hash, broken; only when auditing */
@@ -16,7 +16,8 @@ typedef struct tc_state_set {
 
 typedef struct tc_state {
     int width, height;
-    bool counting, auditing, peeling;
+    bool counting, auditing, peeling, adaptive;
+    int color_bits; /* a channel of tc_state_set.color: 32 or 16 */
     tc_state_set set[2];
     GLuint lock;                       /* depth renderbuffer: near where the ray is finished */
     GLuint lock_framebuffer;           /* the lock alone */
@@ -24,12 +25,17 @@ typedef struct tc_state {
     GLuint hit_framebuffer[2];         /* walk and at of set 0, key i when peeling */
     GLuint key[2];                     /* RG32I: previous and next entry, only when peeling */
     GLuint result, result_framebuffer; /* RGBA32F */
+    /* Only when sampling adaptively: the most of each channel among a pixel's rays and minus the least (RGBA32F), and
+     * which pixels get more (R8UI: 1; its framebuffer holds the result, too). */
+    GLuint spread[2], spread_framebuffer, mask, mask_framebuffer;
     size_t bytes;
 } tc_state;
 
-/* Of options: width, height, count, audit (which counts as well).
+/* Of options: width, height, count, audit (which counts as well), samples (whether adaptive: more rays need no more
+ * memory), state_format. tc_state_fits: is the state the one that tc_state_create would make?
  * Errors: TC_E_ARG when the image exceeds the GL's limit, TC_E_MEMORY, TC_E_GL. */
 tc_status tc_state_create(tc_state *out, const tc_gl *gl, const tc_render_options *options, bool peeling, tc_error *err);
+bool tc_state_fits(const tc_state *state, const tc_render_options *options, bool peeling);
 void tc_state_finish(tc_state *state, const tc_gl *gl);
 /* For tests: the worst that a frame can find. NaN in all that the last one left but the result, and everything locked.
  * Binds another framebuffer. Scissor test off. */

@@ -16,6 +16,9 @@ layout(location = 2) out ivec2 out_key;
 #ifndef PEEL
 layout(binding = 0, offset = 0) uniform atomic_uint entries; // all that survive, whether the first or not
 #endif
+#ifdef SAMPLE_MASK
+uniform usampler2D sample_mask; // 1 where a pixel has a ray
+#endif
 layout(location = 0) out ivec4 out_walk;
 layout(location = 1) out vec2 out_at;
 
@@ -30,6 +33,10 @@ int depth_key(float z)
 
 void main()
 {
+#ifdef SAMPLE_MASK
+    if (texelFetch(sample_mask, ivec2(gl_FragCoord.xy), 0).x != 1u)
+        discard;
+#endif
     Ray ray = ray_of_pixel(gl_FragCoord.xy);
     ivec4 face = texelFetch(faces, face_id);
     Walk w;

@@ -83,6 +83,8 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
         return tc_fail(err, TC_E_ARG, "a pixel cannot have %d rays; take 1, 4, 16 or %d (adaptive)", options->samples,
                        TC_SAMPLES_ADAPTIVE);
     }
+    if (options->audit && options->samples != 0 && options->samples != 1)
+        return tc_fail(err, TC_E_ARG, "an audit is of one ray a pixel; take 1 for samples, or leave the audit out");
     switch ((int)options->state_format) {
     case TC_STATE_AUTO:
     case TC_STATE_16F:
@@ -179,6 +181,7 @@ static tc_status reference_render(tc_image *image, tc_render_stats *stats, tc_re
         return status;
     double start = tc_now_ms();
     tc_reference_set_nan_color(r->reference, frame->options->has_nan_color ? frame->options->nan_color : NULL);
+    tc_reference_set_samples(r->reference, frame->options->samples);
     status = tc_reference_render(image, r->reference, frame->transfer, frame->unit_distance, frame->rays, r->threads,
                                  frame->log, err);
     stats->ms_frame = stats->ms_march = tc_now_ms() - start;
@@ -253,6 +256,8 @@ static void clear_stats(tc_render_stats *stats)
         stats->ms_frame = stats->ms_readback = -1;
     stats->gpu_bytes_mesh = stats->gpu_bytes_other = stats->gpu_bytes_table = stats->gpu_bytes_state = -1;
     stats->steps_per_pass = stats->z_update_every = stats->passes = stats->z_updates = stats->layers = -1;
+    stats->state_bits = -1;
+    stats->refined = -1;
     stats->rays = stats->rays_lost = stats->steps = stats->steps_max = stats->audit_broken = -1;
 }
 
@@ -281,6 +286,7 @@ tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *rendere
         status = tc_image_create(out, options->width, options->height, err);
     if (status != TC_OK)
         return status;
+    stats->samples = options->samples ? options->samples : 1;
     status = renderer->driver->render(*out, stats, renderer, &frame, err);
     if (status != TC_OK && status != TC_E_LOST)
         tc_image_destroy(out);
@@ -320,6 +326,7 @@ tc_status tc_render_gl(unsigned framebuffer, tc_render_stats *stats, tc_renderer
         return status;
     tc_gl_saved saved;
     tc_gl_save(&saved, &tc_gpu_renderer_context(renderer->gpu)->gl);
+    stats->samples = options->samples ? options->samples : 1;
     status = tc_gpu_render(stats, renderer->gpu, &frame, err);
     if (status == TC_OK)
         status = tc_gpu_draw(renderer->gpu, framebuffer, err);

@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "core/vec.h"
 #include "reference/trace.h"
+#include "scene/samples.h"
 
 #include <float.h>
 #include <math.h>
@@ -182,6 +183,51 @@ tc_status tc_reference_trace(tc_reference_ray *out, const tc_reference *referenc
     return tc_line_trace(out, reference, tf, unit, &line, 0, worker);
 }
 
+void tc_reference_set_samples(tc_reference *reference, int samples)
+{
+    reference->samples = samples;
+}
+
+/* The mean of edge x edge rays; spread: the largest difference of a channel among them. */
+static tc_status trace_grid(double *out, double *spread, int edge, const tc_reference *r, const tc_transfer *tf,
+                            double unit, const tc_rays *rays, const double middle[2], int worker)
+{
+    double least[4] = {INFINITY, INFINITY, INFINITY, INFINITY}, most[4] = {0}, sum[4] = {0};
+    for (int k = 0; k < edge * edge; k++) {
+        double origin[3], direction[3], range[2];
+        double X = middle[0] + tc_samples_offset(k % edge, edge), Y = middle[1] + tc_samples_offset(k / edge, edge);
+        tc_reference_ray ray;
+        tc_rays_pixel(origin, direction, rays, X, Y);
+        tc_rays_range(range, rays, X, Y);
+        tc_status status = tc_reference_trace(&ray, r, tf, unit, origin, direction, range, worker);
+        if (status != TC_OK)
+            return status;
+        for (int c = 0; c < 4; c++) {
+            sum[c] += ray.rgba[c];
+            least[c] = fmin(least[c], ray.rgba[c]);
+            most[c] = fmax(most[c], ray.rgba[c]);
+        }
+    }
+    *spread = 0;
+    for (int c = 0; c < 4; c++) {
+        out[c] = sum[c] / (edge * edge);
+        *spread = fmax(*spread, most[c] - least[c]);
+    }
+    return TC_OK;
+}
+
+tc_status tc_reference_pixel(double *out, const tc_reference *reference, const tc_transfer *tf, double unit,
+                             const tc_rays *rays, double X, double Y, int worker)
+{
+    const double middle[2] = {X, Y};
+    double spread;
+    int edge = tc_samples_edge(reference->samples);
+    tc_status status = trace_grid(out, &spread, edge, reference, tf, unit, rays, middle, worker);
+    if (status == TC_OK && reference->samples == TC_SAMPLES_ADAPTIVE && spread > TC_SAMPLES_SPREAD)
+        status = trace_grid(out, &spread, tc_samples_edge(16), reference, tf, unit, rays, middle, worker);
+    return status;
+}
+
 typedef struct render {
     const tc_image *image;
     const tc_reference *reference;
@@ -197,17 +243,14 @@ static void render_rows(void *context, size_t begin, size_t end, int worker)
     render *c = context;
     for (size_t row = begin; row < end; row++) {
         for (int x = 0; x < c->image->width; x++) {
-            double origin[3], direction[3], range[2], X = x + 0.5, Y = c->image->height - (double)row - 0.5;
-            tc_reference_ray ray;
-            tc_rays_pixel(origin, direction, c->rays, X, Y);
-            tc_rays_range(range, c->rays, X, Y);
-            if (tc_reference_trace(&ray, c->reference, c->tf, c->unit, origin, direction, range, worker) != TC_OK) {
+            double rgba[4], X = x + 0.5, Y = c->image->height - (double)row - 0.5;
+            if (tc_reference_pixel(rgba, c->reference, c->tf, c->unit, c->rays, X, Y, worker) != TC_OK) {
                 atomic_store(&c->memory_out, 1);
                 return;
             }
             float *pixel = &c->image->rgba[4 * (row * (size_t)c->image->width + (size_t)x)];
             for (int i = 0; i < 4; i++)
-                pixel[i] = (float)ray.rgba[i];
+                pixel[i] = (float)rgba[i];
         }
         int done = atomic_fetch_add(&c->done, 1) + 1;
         if (worker == 0) /* the thread that called */

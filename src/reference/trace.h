@@ -32,6 +32,7 @@ struct tc_reference {
     tc_bvh bvh;                             /* order: ids of the mesh's tets */
     bool has_nan_color;
     double nan_color[4];
+    int samples;         /* rays a pixel; 0: 1 */
     tc_scratch *scratch; /* [TC_REFERENCE_WORKERS] */
 };
 

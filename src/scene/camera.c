@@ -251,6 +251,19 @@ tc_status tc_rays_from_camera(tc_rays *out, const tc_camera *camera, int width, 
     return TC_OK;
 }
 
+void tc_rays_shift(tc_rays *out, const tc_rays *rays, double x, double y)
+{
+    *out = *rays;
+    for (int i = 0; i < 3; i++) {
+        out->origin[i] += x * rays->origin_dx[i] + y * rays->origin_dy[i];
+        out->direction[i] += x * rays->direction_dx[i] + y * rays->direction_dy[i];
+    }
+    for (int k = 0; k < 4; k++) { /* a pixel is 2 / width wide in clip space, where w = 1 */
+        out->clip[4 * k] -= 2 * x / rays->width * rays->clip[4 * k + 3];
+        out->clip[4 * k + 1] -= 2 * y / rays->height * rays->clip[4 * k + 3];
+    }
+}
+
 void tc_rays_pixel(double *origin, double *direction, const tc_rays *rays, double X, double Y)
 {
     double o[3], d[3];

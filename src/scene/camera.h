@@ -34,6 +34,10 @@ typedef struct tc_rays {
  * parallel too, by the coordinate axis farthest from the view. */
 tc_status tc_rays_from_camera(tc_rays *out, const tc_camera *camera, int width, int height, tc_error *err);
 
+/* The same view, but the ray of each pixel is that of the place (x, y) pixels from it, in tc_rays' coordinates: the
+ * image's clip space moves along. By (0, 0) no bit changes. out may be rays. */
+void tc_rays_shift(tc_rays *out, const tc_rays *rays, double x, double y);
+
 /* One pixel's ray: origin [3] and unit direction [3] in world coordinates. */
 void tc_rays_pixel(double *origin, double *direction, const tc_rays *rays, double X, double Y);
 /* The part of that ray that is seen: range [2], distances from its origin. In parallel range[0] may be below 0: the

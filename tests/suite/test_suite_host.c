@@ -247,6 +247,41 @@ static void picture_in_the_hosts_framebuffer_is_another(void **state)
     tc_renderer_destroy(&renderer);
 }
 
+/* Several rays a pixel are added up in the library's own textures, not in the host's. */
+static void several_rays_in_the_hosts_framebuffer_make_another_picture(void **state)
+{
+    static const int samples[] = {4, TC_SAMPLES_ADAPTIVE, 16};
+    scene *s = *state;
+    tc_renderer *own;
+    const tc_renderer_options osmesa = {.gl = "osmesa", .driver = "pingpong"};
+    tc_error err = {0};
+    if (tc_renderer_create(&own, &osmesa, NULL, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    tc_image *picture[3];
+    tc_render_options options = s->options;
+    for (int i = 0; i < 3; i++) {
+        options.samples = samples[i];
+        if (tc_render(&picture[i], NULL, own, s->mesh, s->tf, &s->camera, &options, NULL, &err) != TC_OK)
+            fail_msg("%s", err.text);
+    }
+    tc_renderer_destroy(&own);
+    enter(s);
+    tc_renderer *renderer = host_renderer();
+    for (int i = 0; i < 3; i++) {
+        tc_render_stats stats;
+        options.samples = samples[i];
+        clear_target(s);
+        if (tc_render_gl(s->framebuffer, &stats, renderer, s->mesh, s->tf, &s->camera, &options, NULL, &err) != TC_OK)
+            fail_msg("%s", err.text);
+        assert_int_equal(stats.samples, samples[i]);
+        assert_true(measure_error(s, picture[i]) <= 1e-6);
+        assert_true(measure_error(s, s->picture) > 0.01);
+    }
+    tc_renderer_destroy(&renderer);
+    for (int i = 0; i < 3; i++)
+        tc_image_destroy(&picture[i]);
+}
+
 /* State of a host that a renderer may have to keep; each query's values one after another. */
 static const struct {
     GLenum name;
@@ -654,6 +689,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(picture_in_the_hosts_framebuffer_is_another),
+        cmocka_unit_test(several_rays_in_the_hosts_framebuffer_make_another_picture),
         cmocka_unit_test(the_hosts_state_is_changed),
         cmocka_unit_test(the_hosts_state_changes_the_picture),
         cmocka_unit_test(a_renderer_without_gl_draws_into_a_host),

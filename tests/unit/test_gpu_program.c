@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "gpu/context.h"
+#include "gpu/first_hit.h"
 #include "gpu/job.h"
 
 #include <stdio.h>
@@ -223,7 +224,9 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
         expect_uniform(gl, march, "nan_color", (f & MISSING) && (f & CELLS), f);
         expect_uniform(gl, march, "ray_near", f & INSIDE, f);
         expect_uniform(gl, march, "ray_far", f & FAR, f);
+        expect_uniform(gl, march, "sample_mask", false, f);
         GLuint first = get(cache, "first_hit.vert", "first_hit.frag", &job);
+        expect_uniform(gl, first, "sample_mask", false, f);
         expect_uniform(gl, first, "peel_key", f & PEEL, f);
         expect_uniform(gl, first, "ray_near", !(f & INSIDE), f); /* entries behind an eye outside */
         expect_uniform(gl, first, "ray_far", f & FAR, f);
@@ -282,6 +285,40 @@ static void the_paper_s_stepper_is_where_it_is_not_asked_for(void **state)
     tc_context_destroy(&context);
 }
 
+/* Only the first hits of marked pixels know of marks. */
+static void marks_are_read_where_every_pixel_has_a_ray(void **state)
+{
+    (void)state;
+    const tc_frame frame = {.clip_near = true, .clip_far = true};
+    char defines[512];
+    tc_job job = job_of(N_FEATURES - 1, &frame);
+    for (int masked = 0; masked < 2; masked++) {
+        job.masked = masked;
+        tc_job_defines(defines, sizeof defines, &job);
+        assert_int_equal(count(defines, "SAMPLE_MASK"), 0);
+        tc_first_hit_defines(defines, sizeof defines, &job);
+        assert_int_equal(count(defines, "#define SAMPLE_MASK\n"), masked);
+    }
+    for (const tc_shader_file *f = tc_shader_files; f->name; f++)
+        if (strcmp(f->name, "first_hit.frag") != 0 && (strstr(f->text, "SAMPLE_MASK") || strstr(f->text, "sample_mask")))
+            fail_msg("%s knows of marks", f->name);
+    tc_context *context;
+    tc_program_cache *cache;
+    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
+        skip();
+    for (int peel = 0; peel < 2; peel++) {
+        const tc_program_source source = {"first_hit.vert", "first_hit.frag",
+                                          peel ? "#define SAMPLE_MASK\n#define PEEL\n" : "#define SAMPLE_MASK\n", NULL};
+        GLuint program;
+        tc_error err = {0};
+        if (tc_program_get(&program, cache, &source, &err) != TC_OK)
+            fail_msg("%s", err.text);
+        expect_uniform(&context->gl, program, "sample_mask", true, peel);
+    }
+    tc_program_cache_destroy(&cache);
+    tc_context_destroy(&context);
+}
+
 static void a_plain_scene_defines_anything(void **state)
 {
     (void)state;
@@ -304,6 +341,7 @@ static void some_shader_does_not_compile(void **state)
     tc_program_cache *cache;
     if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
         skip();
+    const tc_gl *gl = &context->gl;
     for (int f = 0; f < N_FEATURES; f += 13) { /* odd steps meet every pair of features */
         tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
         for (int way = 0; way < 4; way++) {
@@ -322,6 +360,17 @@ static void some_shader_does_not_compile(void **state)
     const tc_job none = {.frame = &outside};
     get(cache, "screen.vert", "lock.frag", &none);
     get(cache, "screen.vert", "copy.frag", &none);
+    get(cache, "screen.vert", "mask.frag", &none);
+    get(cache, "screen.vert", "spread.frag", &none);
+    static const char *const shares[] = {"#define SHARE\n", "#define SHARE\n#define COLOR_HOLDS_DEPTH\n"};
+    for (int i = 0; i < 2; i++) {
+        const tc_program_source source = {"screen.vert", "resolve.frag", shares[i], NULL};
+        GLuint program;
+        tc_error err = {0};
+        if (tc_program_get(&program, cache, &source, &err) != TC_OK)
+            fail_msg("%s", err.text);
+        expect_uniform(gl, program, "share", true, i);
+    }
     tc_program_cache_destroy(&cache);
     tc_context_destroy(&context);
 }
@@ -334,6 +383,7 @@ int main(void)
         cmocka_unit_test(compilers_errors_name_another_line),
         cmocka_unit_test(a_program_holds_what_its_scene_does_not_need),
         cmocka_unit_test(the_paper_s_stepper_is_where_it_is_not_asked_for),
+        cmocka_unit_test(marks_are_read_where_every_pixel_has_a_ray),
         cmocka_unit_test(a_plain_scene_defines_anything),
         cmocka_unit_test(some_shader_does_not_compile),
     };

@@ -333,6 +333,41 @@ static void nonsense_moves_poison_the_camera(void **state)
     assert_int_equal(tc_rays_from_camera(&r, &c, 8, 8, NULL), TC_OK);
 }
 
+static void shifted_rays_are_not_those_beside(void **state)
+{
+    (void)state;
+    for (int parallel = 0; parallel < 2; parallel++) {
+        tc_camera c = front(1.5);
+        c.parallel = parallel;
+        tc_camera_azimuth(&c, 30), tc_camera_elevation(&c, 20), tc_camera_roll(&c, 15);
+        tc_rays r, same, moved;
+        assert_int_equal(tc_rays_from_camera(&r, &c, 30, 20, NULL), TC_OK);
+        tc_rays_shift(&same, &r, 0, 0);
+        assert_memory_equal(same.clip, r.clip, sizeof r.clip);
+        assert_memory_equal(same.origin, r.origin, sizeof r.origin);
+        assert_memory_equal(same.direction, r.direction, sizeof r.direction);
+        moved = r;
+        tc_rays_shift(&moved, &moved, 0.375, -0.125);
+        for (int k = 0; k < 4; k++) {
+            const double X = 7.5 * k + 0.5, Y = 19.5 - 5 * k;
+            double o[3], d[3], beside_o[3], beside_d[3], range[2], beside_range[2];
+            tc_rays_pixel(o, d, &moved, X, Y);
+            tc_rays_pixel(beside_o, beside_d, &r, X + 0.375, Y - 0.125);
+            near3(o, beside_o[0], beside_o[1], beside_o[2], 1e-13);
+            near3(d, beside_d[0], beside_d[1], beside_d[2], 1e-14);
+            tc_rays_range(range, &moved, X, Y);
+            tc_rays_range(beside_range, &r, X + 0.375, Y - 0.125);
+            NEAR(range[0], beside_range[0], 1e-12);
+            /* A point of that ray falls on the pixel's middle. */
+            double p[4] = {o[0] + 9 * d[0], o[1] + 9 * d[1], o[2] + 9 * d[2], 1}, at[4] = {0, 0, 0, 0};
+            for (int i = 0; i < 16; i++)
+                at[i % 4] += moved.clip[i] * p[i / 4];
+            NEAR((at[0] / at[3] + 1) * 15, X, 1e-11);
+            NEAR((at[1] / at[3] + 1) * 10, Y, 1e-11);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -347,6 +382,7 @@ int main(void)
         cmocka_unit_test(clipping_planes_are_not_across_the_view),
         cmocka_unit_test(a_bad_camera_is_accepted),
         cmocka_unit_test(reset_keeps_a_clipping_range),
+        cmocka_unit_test(shifted_rays_are_not_those_beside),
         cmocka_unit_test(nonsense_moves_poison_the_camera),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

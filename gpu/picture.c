@@ -1,0 +1,171 @@
+/* picture.c: makes a picture of one frame of rays (Weiler et al. 2003, 5.2), or of several. */
+#include "gpu/picture.h"
+
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "gpu/accumulate.h"
+#include "gpu/audit.h"
+#include "gpu/first_hit.h"
+#include "gpu/pingpong.h"
+#include "scene/samples.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The smallest rectangle that holds both; width 0: nothing. */
+static void unite_rects(int *rect, const int *other)
+{
+    if (rect[2] == 0)
+        memcpy(rect, other, 4 * sizeof *rect);
+    for (int k = 0; k < 2 && other[2] > 0; k++) {
+        int end = rect[k] + rect[2 + k], other_end = other[k] + other[2 + k];
+        rect[k] = rect[k] < other[k] ? rect[k] : other[k];
+        rect[2 + k] = (end > other_end ? end : other_end) - rect[k];
+    }
+}
+
+static void intersect_rects(int *rect, const int *other)
+{
+    for (int k = 0; k < 2; k++) {
+        int end = rect[k] + rect[2 + k], other_end = other[k] + other[2 + k];
+        rect[k] = rect[k] > other[k] ? rect[k] : other[k];
+        rect[2 + k] = (end < other_end ? end : other_end) - rect[k];
+    }
+    if (rect[2] <= 0 || rect[3] <= 0)
+        memset(rect, 0, 4 * sizeof *rect);
+}
+
+tc_status tc_picture_compile(tc_picture *p, tc_error *err)
+{
+    const int samples = p->options->samples;
+    tc_frame rays; /* those of shifted rays call for the same */
+    tc_frame_build(&rays, p->rays, p->center, p->scale);
+    p->job->frame = &rays;
+    p->job->masked = false;
+    tc_status status = tc_pingpong_compile(p->job, err);
+    if (status == TC_OK)
+        status = tc_accumulate_compile(p->job, samples, err);
+    if (status == TC_OK && samples == TC_SAMPLES_ADAPTIVE) {
+        p->job->masked = true;
+        status = tc_first_hit_compile(p->job, err);
+    }
+    p->job->frame = NULL;
+    return status;
+}
+
+/* Steps are read as a whole, also where nothing is drawn. */
+static void clear_steps(const tc_job *job)
+{
+    const GLuint none[4] = {0, 0, 0, 0};
+    job->gl->Disable(GL_SCISSOR_TEST);
+    job->gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->set[0].framebuffer);
+    job->gl->ClearBufferuiv(GL_COLOR, 3, none);
+}
+
+/* Adds what one frame did to the picture's. */
+static tc_status add_result(tc_picture *p, const tc_job_result *one, tc_error *err)
+{
+    tc_job_result *sum = &p->result;
+    if (one->fragments && one->passes > 0) {
+        size_t n = (size_t)sum->passes + (size_t)one->passes;
+        int64_t *grown = tc_realloc(sum->fragments, n, sizeof *grown);
+        if (!grown)
+            return tc_fail_memory(err, "the pass counters", n, sizeof *grown);
+        memcpy(grown + sum->passes, one->fragments, (size_t)one->passes * sizeof *grown);
+        sum->fragments = grown;
+    }
+    sum->passes += one->passes;
+    sum->z_updates += one->z_updates;
+    sum->layers = one->layers > sum->layers ? one->layers : sum->layers;
+    sum->rays += one->rays;
+    sum->rays_lost += one->rays_lost;
+    sum->ms_first_hit += one->ms_first_hit;
+    sum->ms_march += one->ms_march;
+    return TC_OK;
+}
+
+/* A frame: a ray through each pixel, or each marked one, at place k of a grid of edge * edge in it. touch: pixels that
+ * it has to touch besides its own, or NULL. Gives result.twice above 0, and nothing else, where it has to be peeled. */
+static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_error *err)
+{
+    tc_job *job = p->job;
+    const tc_gl *gl = job->gl;
+    tc_frame rays;
+    tc_rays shifted;
+    tc_job_result one = {0};
+    tc_status status = TC_OK;
+    if (job->count)
+        clear_steps(job);
+    double start = tc_now_ms();
+    tc_rays_shift(&shifted, p->rays, tc_samples_offset(k % edge, edge), tc_samples_offset(k / edge, edge));
+    tc_frame_build(&rays, &shifted, p->center, p->scale);
+    job->frame = &rays;
+    job->proposals = p->proposals;
+    int *rect = p->proposals->rect;
+    p->proposals->n = 0;
+    memset(rect, 0, sizeof p->proposals->rect);
+    if (!rays.hidden)
+        status = tc_propose(p->proposals, &rays, p->options->width, p->options->height, p->face_corner,
+                            job->mesh->n_face, err);
+    if (touch)
+        unite_rects(rect, touch);
+    if (job->masked)
+        intersect_rects(rect, p->marked);
+    double ms_propose = tc_now_ms() - start;
+    gl->Enable(GL_SCISSOR_TEST); /* nothing is done where no face is seen */
+    gl->Scissor(rect[0], rect[1], rect[2], rect[3]);
+    if (status == TC_OK)
+        status = tc_pingpong_frame(&one, job, err);
+    one.ms_first_hit += ms_propose;
+    p->result.twice = one.twice;
+    if (status == TC_OK && one.twice == 0)
+        status = add_result(p, &one, err);
+    free(one.fragments);
+    job->frame = NULL;
+    unite_rects(p->drawn, rect);
+    if (status == TC_OK && one.twice == 0 && job->count) {
+        start = tc_now_ms();
+        status = tc_audit_steps(p->stats, job->state, gl, err);
+        p->ms_aside += tc_now_ms() - start;
+    }
+    return status;
+}
+
+/* All rays of a grid, each added to the picture. compare: keeps how they differ, for which every frame touches what
+ * those before it did. */
+static tc_status cast_grid(tc_picture *p, int edge, bool compare, tc_error *err)
+{
+    tc_status status = TC_OK;
+    for (int k = 0; k < edge * edge && status == TC_OK; k++) {
+        status = cast_rays(p, k, edge, compare ? p->drawn : NULL, err);
+        if (status != TC_OK || p->result.twice > 0)
+            return status;
+        status = tc_accumulate_add(p->job, 1.0 / (edge * edge), err);
+        if (status == TC_OK && compare)
+            status = tc_accumulate_spread(p->job, k == 0, err);
+    }
+    return status;
+}
+
+tc_status tc_picture_make(tc_picture *p, tc_error *err)
+{
+    const int samples = p->options->samples;
+    const bool adaptive = samples == TC_SAMPLES_ADAPTIVE;
+    free(p->result.fragments);
+    memset(&p->result, 0, sizeof p->result);
+    p->job->masked = false;
+    p->stats->refined = adaptive ? 0 : -1;
+    if (p->job->count)
+        p->stats->steps = p->stats->steps_max = 0;
+    tc_accumulate_begin(p->job, p->drawn);
+    memset(p->drawn, 0, 4 * sizeof *p->drawn);
+    tc_status status = cast_grid(p, tc_samples_edge(samples), adaptive, err);
+    if (status != TC_OK || p->result.twice > 0 || !adaptive)
+        return status;
+    memcpy(p->marked, p->drawn, sizeof p->marked);
+    status = tc_accumulate_mark(p->marked, &p->stats->refined, p->job, err);
+    if (status != TC_OK || p->stats->refined == 0)
+        return status;
+    p->job->masked = true;
+    return cast_grid(p, tc_samples_edge(16), false, err);
+}
