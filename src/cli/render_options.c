@@ -267,6 +267,10 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
                       "--audit counts faces that hold the ray, which --stepper planes does not ask: leave one out");
         return TC_EXIT_USAGE;
     }
+    if (out->audit && out->samples != 1) {
+        tc_talk_error(talk, "--audit is of one ray a pixel: leave it or --samples out");
+        return TC_EXIT_USAGE;
+    }
     if (out->audit && !strcmp(out->driver, "reference")) {
         tc_talk_error(talk,
                       "--audit checks the walk from cell to cell, which --driver reference does not do: leave one out");

@@ -99,6 +99,17 @@ static json_t *tc_march_json(const tc_render_run *run)
     tc_json_text(march, "stepper", stats->stepper);
     tc_json_text(march, "integrator", stats->integrator);
     tc_json_text(march, "integrator_why", stats->integrator_why);
+    if (stats->integral_order > 0)
+        tc_json_count(march, "integral_order", (uint64_t)stats->integral_order);
+    if (stats->opacity_stop > 0)
+        tc_json_real(march, "opacity_stop", stats->opacity_stop);
+    if (stats->samples == TC_SAMPLES_ADAPTIVE)
+        tc_json_text(march, "samples", "adaptive");
+    else if (stats->samples > 0)
+        tc_json_count(march, "samples", (uint64_t)stats->samples);
+    tc_json_measured_count(march, "pixels_refined", stats->refined);
+    if (stats->state_bits > 0)
+        tc_json_count(march, "state_bits", (uint64_t)stats->state_bits);
     if (stats->steps_per_pass > 0)
         tc_json_count(march, "steps_per_pass", (uint64_t)stats->steps_per_pass);
     if (stats->z_update_every > 0)

@@ -19,6 +19,16 @@ json s.json size effects 1 eq effects.0 density-emitter
 json s.json eq verify.pixels 200 has verify.ill_posed le verify.max_abs_error 0.00196 le verify.mean_abs_error 0.0001 \
     has verify.p999_abs_error eq verify.rays_lost 0
 
+json s.json eq march.samples 1 eq march.state_bits 32 lacks march.pixels_refined ge march.opacity_stop 0.99
+
+# Several rays a pixel: sums over all of them.
+rays=$(sed -n 's/.*"rays": \([0-9]*\).*/\1/p' s.json)
+run 0 render $sink --stats m.json --samples adaptive --state-format 16f
+json m.json eq march.samples adaptive ge march.pixels_refined 10 le march.pixels_refined 2304 eq march.state_bits 16 \
+    eq march.rays_lost 0 ge march.rays $((4 * rays)) ge march.steps 4000
+run 0 render $sink --stats m.json --samples 4
+json m.json eq march.samples 4 lacks march.pixels_refined eq march.state_bits 32 ge march.rays $((3 * rays))
+
 # Repeated: median with its extremes, in order.
 run 0 render $sink --stats r.json --repeat 3
 json r.json eq frames 3 has time_ms.frame has time_ms.frame_min has time_ms.frame_max lacks verify
@@ -27,7 +37,7 @@ json r.json le time_ms.frame_min "$frame" ge time_ms.frame_max "$frame"
 
 # The reference has no GPU: what belongs to one is absent.
 run 0 render $sink --driver reference --stats c.json
-json c.json lacks gl eq march.driver reference lacks mesh.gpu_bytes lacks time_ms.upload lacks time_ms.compile \
+json c.json lacks gl lacks march.state_bits eq march.samples 1 eq march.driver reference lacks mesh.gpu_bytes lacks time_ms.upload lacks time_ms.compile \
     lacks time_ms.table lacks march.passes lacks march.fragments_per_pass lacks march.steps_per_pass
 
 # What the paper's arithmetic loses is said at the end, after picture and numbers; the exact signs lose nothing there.

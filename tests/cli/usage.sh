@@ -49,6 +49,9 @@ for case in \
     "--driver reference does not|render a --stepper planes --driver reference" \
     "--stepper planes does not|render a --stepper planes --audit" \
     "--driver reference does not do|render a --audit --driver reference" \
+    "one ray a pixel|render a --audit --samples 4" \
+    "--samples takes 1|render a --samples 2" \
+    "--state-format takes auto|render a --state-format 8" \
     "the nearest is 'convexify'|render a --reentry convex" \
     "each from 2 to 1024|render a --table-size 1,128,256" \
     "--table-size takes|render a --table-size 128,128" \
@@ -67,7 +70,6 @@ for case in \
     "the extension tells the format|render a -o png" \
     "both want stdout|render a -o - --stats -" \
     "not in this version|render a --model mip" \
-    "not in this version|render a --integrator exact" \
     "not in this version|render a --driver compute" \
     "--iso is not in this version|render a --iso 1" \
     "--shade is not in this version|render a --shade phong" \
