@@ -1,5 +1,5 @@
 /* cmd_render.c: `tetcast render`: one image of a mesh. */
-#include "cli/render_report.h"
+#include "cli/render_verify.h"
 #include "cli/render_view.h"
 
 #include <math.h>
@@ -121,25 +121,6 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
     return -1;
 }
 
-static int tc_verify_run(tc_render_run *run, tc_talk *talk)
-{
-    tc_error err = {0};
-    tc_status status = tc_verify(&run->verify, run->image, (size_t)run->options->verify, run->options->seed, run->mesh,
-                                 run->tf, &run->camera, &run->render, &talk->log, &err);
-    if (status)
-        return tc_talk_status(talk, status, &err);
-    run->verified = true;
-    run->verify.rays_lost = run->count.rays_lost; /* of the picture that was verified */
-    const tc_verify_result *v = &run->verify;
-    tc_talk_say(talk,
-                "verify: %zu pixels, max error %.3g, 99.9 %% below %.3g, mean %.3g (half an 8-bit step is 0.00196)",
-                v->pixels, v->max_abs_error, v->p999_abs_error, v->mean_abs_error);
-    if (v->ill_posed)
-        tc_talk_say(talk, "verify: %zu ill-posed rays are left out (worst error %.3g)", v->ill_posed,
-                    v->worst_error_ill_posed);
-    return -1;
-}
-
 static int tc_picture_write(tc_render_run *run, tc_talk *talk, int argc, char **argv)
 {
     const tc_render_command *options = run->options;
@@ -233,6 +214,8 @@ static int tc_render_do(tc_render_run *run, tc_frames *frames, tc_talk *talk, in
         tc_empty_warn(run, talk);
         code = tc_picture_write(run, talk, argc, argv);
     }
+    if (code < 0 && run->errors)
+        code = tc_error_image_write(run, talk, argc, argv);
     bool measured = code < 0 || run->count.rays_lost > 0; /* a lost ray is in the numbers, but makes no picture */
     if (options->stats && measured) {
         int wrote = tc_stats_write(run, talk);
@@ -278,6 +261,7 @@ int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, ch
         code = tc_render_do(&run, &frames, talk, argc, argv);
     }
     tc_image_destroy(&run.image);
+    tc_image_destroy(&run.errors);
     tc_renderer_destroy(&frames.renderer);
     tc_transfer_destroy(&run.tf);
     tc_mesh_destroy(&run.mesh);

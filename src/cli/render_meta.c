@@ -135,13 +135,18 @@ static char *tc_verify_text(const tc_verify_result *verify)
     json_t *json = json_object();
     tc_json_count(json, "pixels", verify->pixels);
     tc_json_count(json, "ill_posed", verify->ill_posed);
+    tc_json_count(json, "pixels_all", verify->n_all);
     tc_json_measured(json, "max_abs_error", verify->max_abs_error);
+    tc_json_measured(json, "p9999_abs_error", verify->p9999_abs_error);
+    tc_json_measured(json, "p999_abs_error", verify->p999_abs_error);
     tc_json_measured(json, "mean_abs_error", verify->mean_abs_error);
+    tc_json_measured(json, "confidence", verify->confidence);
+    tc_json_measured(json, "unseen_share", verify->unseen_share);
     tc_json_measured_count(json, "rays_lost", verify->rays_lost);
     return tc_compact(json);
 }
 
-static void tc_meta_add(tc_meta *meta, const char *key, char *owned)
+void tc_meta_add(tc_meta *meta, const char *key, char *owned)
 {
     if (!owned)
         return;

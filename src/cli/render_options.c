@@ -175,6 +175,7 @@ static const tc_option tc_render_option[] = {
     TC_INPUT_THREADS_ROW(tc_render_command, source),
     {.help = "Measuring"},
     {"--verify", 0, "N", "trace N pixels again in double precision and report the error", TC_OPTION_U64, AT(verify), HAS(has_verify), .low = 1, .high = 1e18},
+    {"--error-image", 0, "FILE", "write the error of each pixel; of all, unless --verify says how many; .exr and .tif: as floats", TC_OPTION_TEXT, AT(error_image)},
     {"--repeat", 0, "N", "render N frames after one to warm up; times are medians", TC_OPTION_INT, AT(repeat), HAS(has_repeat), .low = 1, .high = 1000000},
     {"--count", 0, NULL, "count steps and fragments in one extra frame; on with --stats and --verify", TC_OPTION_FLAG, AT(count)},
     {"--audit", 0, NULL, "let the walk check itself in the counted frame: exactly two faces of a visited cell hold the ray", TC_OPTION_FLAG, AT(audit)},
@@ -233,6 +234,46 @@ static bool tc_same_file(const char *a, const char *b)
     return !strcmp(a, b);
 }
 
+/* The files to be written: each its own, none the input, pictures with a known extension, in folders that are there. */
+static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
+{
+    const struct {
+        const char *option, *path;
+        bool picture;
+    } file[] = {
+        {"--output", out->output, true}, {"--error-image", out->error_image, true}, {"--stats", out->stats, false}};
+    enum { N = sizeof file / sizeof *file };
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < i && file[i].path; j++) {
+            if (!file[j].path)
+                continue;
+            if (!strcmp(file[i].path, "-") && !strcmp(file[j].path, "-")) {
+                tc_talk_error(talk, "%s - and %s - both want stdout: give one of them a file", file[j].option,
+                              file[i].option);
+                return TC_EXIT_USAGE;
+            }
+            if (tc_same_file(file[i].path, file[j].path)) {
+                tc_talk_error(talk, "%s and %s are one file, %s: give each its own", file[j].option, file[i].option,
+                              file[j].path);
+                return TC_EXIT_USAGE;
+            }
+        }
+    for (int i = 0; i < N; i++)
+        if (file[i].path && tc_same_file(out->input, file[i].path)) {
+            tc_talk_error(talk, "%s is the input and would be written over: give %s another name", out->input,
+                          file[i].option);
+            return TC_EXIT_USAGE;
+        }
+    int code = -1;
+    for (int i = 0; i < N && code < 0; i++) {
+        if (file[i].path && file[i].picture)
+            code = tc_output_kind_check(file[i].path, talk);
+        if (code < 0 && file[i].path)
+            code = tc_output_check(file[i].path, talk);
+    }
+    return code;
+}
+
 static int tc_render_check(const tc_render_command *out, tc_talk *talk)
 {
     static const double zero[3];
@@ -280,25 +321,7 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
         tc_talk_error(talk, "--preset names a map of a file: give the file with --color-map");
         return TC_EXIT_USAGE;
     }
-    if (out->stats && !strcmp(out->stats, "-") && !strcmp(out->output, "-")) {
-        tc_talk_error(talk, "-o - and --stats - both want stdout: give one of them a file");
-        return TC_EXIT_USAGE;
-    }
-    if (out->stats && tc_same_file(out->stats, out->output)) {
-        tc_talk_error(talk, "--stats and --output are one file, %s: give each its own", out->output);
-        return TC_EXIT_USAGE;
-    }
-    if (tc_same_file(out->input, out->output) || (out->stats && tc_same_file(out->input, out->stats))) {
-        tc_talk_error(talk, "%s is the input and would be written over: give --output and --stats other names",
-                      out->input);
-        return TC_EXIT_USAGE;
-    }
-    code = tc_output_kind_check(out->output, talk);
-    if (code < 0)
-        code = tc_output_check(out->output, talk);
-    if (code < 0 && out->stats)
-        code = tc_output_check(out->stats, talk);
-    return code;
+    return tc_outputs_check(out, talk);
 }
 
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
@@ -322,6 +345,10 @@ int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_comma
     out->gl = tc_gl_choice[out->gl_choice].name;
     out->driver = tc_driver_choice[out->driver_choice].name;
     out->source.seed = out->seed;
+    if (out->error_image && !out->has_verify) {
+        out->has_verify = true;
+        out->verify = UINT64_MAX;
+    }
     if (!out->output) {
         char stem[480];
         tc_input_stem(stem, sizeof stem, out->input);

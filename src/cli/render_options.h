@@ -54,6 +54,7 @@ typedef struct tc_render_command {
 
     uint64_t verify;
     bool has_verify;
+    const char *error_image; /* NULL: none; else has_verify */
     int repeat;
     bool has_repeat, count, audit;
     const char *stats;

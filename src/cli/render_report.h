@@ -30,6 +30,7 @@ typedef struct tc_render_run {
     int frames; /* timed ones */
     tc_verify_result verify;
     bool verified, counted;
+    tc_image *errors; /* of tc_verify_image; NULL without --error-image */
     tc_error lost; /* rays that the stepper "planes" lost: said at the end; code TC_OK where there are none */
     bool broken;   /* the audit found cells in which other than two faces held the ray: said at the end, too */
 } tc_render_run;
@@ -38,13 +39,15 @@ typedef struct tc_render_run {
 json_t *tc_render_stats_json(const tc_render_run *run);
 
 /* Texts for the image file: command, camera, transfer function, version, field, notes, verify. */
-#define TC_META_MAX 8
+#define TC_META_MAX 12
 typedef struct tc_meta {
     tc_text_pair pair[TC_META_MAX];
     char *owned[TC_META_MAX];
     size_t n;
 } tc_meta;
 void tc_meta_make(tc_meta *out, const tc_render_run *run, int argc, char **argv);
+/* One more; owned comes from malloc and goes with meta; NULL: nothing is added. */
+void tc_meta_add(tc_meta *meta, const char *key, char *owned);
 void tc_meta_finish(tc_meta *meta);
 
 /* The field's name as shown to people; never NULL. */

@@ -141,10 +141,14 @@ static json_t *tc_verify_json(const tc_verify_result *verify, uint64_t seed)
     tc_json_count(out, "pixels", verify->pixels);
     tc_json_count(out, "ill_posed", verify->ill_posed);
     tc_json_measured(out, "max_abs_error", verify->max_abs_error);
+    tc_json_measured(out, "p9999_abs_error", verify->p9999_abs_error);
     tc_json_measured(out, "p999_abs_error", verify->p999_abs_error);
     tc_json_measured(out, "mean_abs_error", verify->mean_abs_error);
     if (verify->ill_posed > 0)
         tc_json_measured(out, "worst_error_ill_posed", verify->worst_error_ill_posed);
+    tc_json_count(out, "pixels_all", verify->n_all);
+    tc_json_measured(out, "confidence", verify->confidence);
+    tc_json_measured(out, "unseen_share", verify->unseen_share);
     tc_json_measured_count(out, "rays_lost", verify->rays_lost);
     tc_json_count(out, "seed", seed);
     return out;

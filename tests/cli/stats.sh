@@ -17,7 +17,8 @@ json s.json eq march.driver pingpong has march.stepper ge march.steps_per_pass 1
     ge march.steps_per_second 1 type march.fragments_per_pass array ge march.fragments_per_pass.0 1
 json s.json size effects 1 eq effects.0 density-emitter
 json s.json eq verify.pixels 200 has verify.ill_posed le verify.max_abs_error 0.00196 le verify.mean_abs_error 0.0001 \
-    has verify.p999_abs_error eq verify.rays_lost 0
+    has verify.p999_abs_error has verify.p9999_abs_error eq verify.rays_lost 0 eq verify.pixels_all 2304 \
+    eq verify.confidence 0.95 ge verify.unseen_share 0.012 le verify.unseen_share 0.016
 
 json s.json eq march.samples 1 eq march.state_bits 32 lacks march.pixels_refined ge march.opacity_stop 0.99
 

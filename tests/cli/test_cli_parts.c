@@ -8,7 +8,7 @@
 #include "cli/info_text.h"
 #include "cli/input.h"
 #include "cli/nearest.h"
-#include "cli/render_report.h"
+#include "cli/render_verify.h"
 #include "cli/render_view.h"
 
 #include <math.h>
@@ -108,6 +108,68 @@ static void json_leaves_out_what_was_not_measured(void **state)
     assert_int_equal(json_object_size(json), 3);
     assert_string_equal(json_string_value(json_object_get(json, "latin1")), "caf?");
     json_decref(json);
+}
+
+static void worse_error_is_not_lighter(void **state)
+{
+    (void)state;
+    float rgb[3], last = -1;
+    for (double at = -7; at <= -1; at += 1.0 / 64) {
+        tc_error_color(rgb, pow(10, at));
+        float luma = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+        assert_true(luma > last + 1e-4f);
+        last = luma;
+    }
+    static const double low[] = {0, 1e-300, -1, NAN, 1e-7}, high[] = {0.1, 1, 3e38, INFINITY};
+    for (size_t i = 0; i < sizeof low / sizeof *low; i++) {
+        tc_error_color(rgb, low[i]);
+        assert_true(rgb[0] < 0.05f && rgb[1] < 0.05f && rgb[2] < 0.1f);
+    }
+    for (size_t i = 0; i < sizeof high / sizeof *high; i++) {
+        tc_error_color(rgb, high[i]);
+        assert_true(rgb[0] == 1 && rgb[1] == 1 && rgb[2] == 1);
+    }
+    /* Neither grey nor turquoise can be taken for an error: looked at, ill-posed, not looked at. */
+    float pixel[3][4] = {{1e-4f, 1e-3f, 0, 1}, {0.2f, 0, 0, 0.5f}, {0, 0, 0, 0}};
+    tc_image image = {3, 1, &pixel[0][0]};
+    tc_error_paint(&image);
+    tc_error_color(rgb, 1e-3f);
+    assert_memory_equal(pixel[0], rgb, sizeof rgb);
+    assert_true(pixel[1][1] > pixel[1][0] + 0.5f && pixel[1][2] > pixel[1][0] + 0.5f);
+    assert_true(pixel[2][0] == pixel[2][1] && pixel[2][1] == pixel[2][2] && pixel[2][0] == 0.5f);
+    assert_true(pixel[0][3] == 1 && pixel[1][3] == 1 && pixel[2][3] == 1);
+    assert_true(tc_error_is_painted("a.exr/b.png") && tc_error_is_painted("-") && tc_error_is_painted("x.JPG"));
+    assert_false(tc_error_is_painted("x.EXR") || tc_error_is_painted("y.tif") || tc_error_is_painted("z.tiff"));
+}
+
+static void stated_bound_is_rounded_down(void **state)
+{
+    (void)state;
+    static const double value[][2] = {{5.91e-5, 6.0e-5}, {5.9e-5, 5.9e-5}, {0.07301, 0.074},
+                                      {9.91, 10},        {100, 100},       {0, 0}};
+    for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
+        double up = tc_round_up(value[i][0]);
+        assert_true(fabs(up - value[i][1]) <= 1e-12 * value[i][1]);
+    }
+    char text[192];
+    tc_verify_result v = {
+        .pixels = 4096, .n_all = 262144, .confidence = 0.95, .unseen_share = 7.21e-4, .max_abs_error = 5.83e-5};
+    tc_confidence_text(text, sizeof text, &v);
+    assert_string_equal(text, "with 95 % confidence at most 0.073 % of the other pixels err by more than 5.9e-05");
+    v.unseen_share = 1;
+    tc_confidence_text(text, sizeof text, &v);
+    assert_non_null(strstr(text, "too few"));
+    v.unseen_share = NAN; /* not drawn at random */
+    tc_confidence_text(text, sizeof text, &v);
+    assert_string_equal(text, "");
+    v.pixels = v.n_all, v.unseen_share = 0;
+    tc_confidence_text(text, sizeof text, &v);
+    assert_string_equal(text, "");
+    char legend[512];
+    tc_error_legend(legend, sizeof legend, true);
+    assert_non_null(strstr(legend, "orange 1e-3, yellow 1e-2, white 1e-1 and more, turquoise ill-posed"));
+    tc_error_legend(legend, sizeof legend, false);
+    assert_true(strlen(legend) < sizeof legend - 1);
 }
 
 static void gpu_bytes_count_imaginary_cells_and_added_points(void **state)
@@ -226,6 +288,8 @@ int main(void)
         cmocka_unit_test(default_name_is_the_inputs_own),
         cmocka_unit_test(median_leaves_out_what_was_not_measured),
         cmocka_unit_test(json_leaves_out_what_was_not_measured),
+        cmocka_unit_test(worse_error_is_not_lighter),
+        cmocka_unit_test(stated_bound_is_rounded_down),
         cmocka_unit_test(gpu_bytes_count_imaginary_cells_and_added_points),
         cmocka_unit_test(empty_picture_names_its_reason),
         cmocka_unit_test(one_faint_pixel_is_not_empty),

@@ -69,6 +69,12 @@ for case in \
     "the extension tells the format|render a -o a.bmp" \
     "the extension tells the format|render a -o png" \
     "both want stdout|render a -o - --stats -" \
+    "--output - and --error-image - both want stdout|render a -o - --error-image -" \
+    "--error-image - and --stats - both want stdout|render a --error-image - --stats -" \
+    "--output and --error-image are one file, a.png|render a -o a.png --error-image a.png" \
+    "--error-image and --stats are one file, e.png|render a --error-image e.png --stats e.png" \
+    "a is the input and would be written over: give --error-image another name|render a --error-image a" \
+    "e.bmp: the extension tells the format|render a --error-image e.bmp" \
     "not in this version|render a --model mip" \
     "not in this version|render a --driver compute" \
     "--iso is not in this version|render a --iso 1" \
