@@ -362,7 +362,7 @@ typedef struct tc_render_options {
     double nan_color[4];          /* r, g, b, attenuation per unit distance */
     int samples;                  /* rays a pixel: 0, 1: one through its middle; 4, 16: through a grid in it, their mean;
                                      TC_SAMPLES_ADAPTIVE: 4, and 16 in their place where they differ by more than
-                                     1/64 in a channel. More than 1: not with audit */
+                                     1/32 in a channel. More than 1: not with audit */
     tc_state_format state_format; /* of colour and opacity between passes; AUTO: 32F */
 } tc_render_options;
 

@@ -10,7 +10,7 @@
 
 enum { WIDTH = 45, HEIGHT = 37 };
 
-static const double LIMIT = 1.0 / 64; /* between the first rays of a pixel, as tetcast.h has it */
+static const double LIMIT = 1.0 / 32; /* between the first rays of a pixel, as tetcast.h has it */
 static const double SURE = 1e-4;      /* how far a difference may be from it, rounded otherwise */
 
 /* What a ray may have to do with: projection, clipping planes, an eye in the mesh. */
