@@ -39,7 +39,7 @@ typedef enum tc_status {
     TC_E_WORKER = -6, /* a helper program failed */
     TC_E_LOST = -7,   /* a ray was lost: an error of ours, the picture is not to be trusted */
     TC_E_EMPTY = -8,  /* nothing would be seen */
-    TC_E_CANCEL = -9,  /* the caller asked to stop */
+    TC_E_CANCEL = -9, /* the caller asked to stop */
     TC_E_ACCURACY = -10 /* no setting reaches the error that was asked for */
 } tc_status;
 
@@ -561,6 +561,7 @@ typedef struct tc_choose_report {
     tc_verify_result verify; /* of the sampled pixels, as of tc_verify */
     size_t suspects;         /* pixels that were traced besides: those that differ most, of all, from the picture of the most
                                 accurate setting */
+    double suspect_error;    /* their largest error */
 } tc_choose_report;
 
 /* Chooses integrator, order, split and opacity stop for this mesh, function and view. What options decides is kept:

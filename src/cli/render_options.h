@@ -59,10 +59,16 @@ typedef struct tc_render_command {
     bool has_repeat, count, audit;
     const char *stats;
     uint64_t seed;
+
+    double error, frame_time; /* 0: not asked for */
+    bool no_cache;
 } tc_render_command;
 
 /* Defaults, parsing, checks that need no mesh. -1 to go on, else the exit code. */
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv);
+
+/* --size WxH: a custom option whose field is a tc_size. */
+bool tc_size_parse(void *field, const char *text, char *why);
 
 /* Runs the command; in cmd_render.c, while the table of its options is in render_options.c. */
 int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, char **argv);

@@ -20,8 +20,8 @@ includes() {
         rank["scene"] = rank["shell"] = rank["image"] = 2
         rank["transfer_functions"] = rank["datasets_synthetic"] = rank["readers"] = 2
         rank["gpu"] = rank["reference"] = 3
-        rank["api"] = rank["study"] = rank["window"] = 4
-        rank["cli"] = 5
+        rank["api"] = 4; rank["study"] = rank["window"] = 5
+        rank["cli"] = 6
     }
     FNR == 1 {
         n = split(FILENAME, part, "/")
