@@ -1,4 +1,5 @@
 /* cmd_render.c: `tetcast render`: one image of a mesh. */
+#include "cli/render_choose.h"
 #include "cli/render_verify.h"
 #include "cli/render_view.h"
 
@@ -83,7 +84,7 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
 {
     const tc_render_command *options = run->options;
     size_t n = (size_t)options->repeat;
-    bool count = options->count || options->audit || options->stats || options->has_verify;
+    bool count = options->count || options->audit || options->stats || options->has_verify || run->chosen;
     int code = tc_frame(run, &run->first, frames->renderer, false, talk);
     run->count = run->first;
     if (code >= 0)
@@ -207,9 +208,17 @@ static int tc_render_do(tc_render_run *run, tc_frames *frames, tc_talk *talk, in
     tc_status status = tc_renderer_create(&frames->renderer, &make, &talk->log, &err);
     if (status)
         return tc_talk_status(talk, status, &err);
+    if (tc_choice_asked(options))
+        code = tc_choice_make(run, frames->renderer, talk);
+    if (code >= 0)
+        return code;
     code = tc_frames_run(run, frames, talk);
     if (code < 0 && options->has_verify)
         code = tc_verify_run(run, talk);
+    if (code < 0)
+        tc_choice_take_verify(run, talk);
+    if (code < 0)
+        code = tc_choice_judge(run, talk);
     if (code < 0) {
         tc_empty_warn(run, talk);
         code = tc_picture_write(run, talk, argc, argv);

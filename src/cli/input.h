@@ -19,13 +19,17 @@ typedef struct tc_input_options {
 /* clang-format off */
 #define TC_INPUT_AT(type, member, what) (offsetof(type, member) + offsetof(tc_input_options, what))
 #define TC_INPUT_FIELD_ROWS(type, member)                                                                              \
+    TC_INPUT_ARRAY_ROWS(type, member),                                                                                 \
+    {"--time", 0, "T", "the step at or before this time", TC_OPTION_REAL, .at = TC_INPUT_AT(type, member, time),       \
+     .has = TC_INPUT_AT(type, member, has_time) + 1},                                                                  \
+    TC_INPUT_STEP_ROWS(type, member)
+#define TC_INPUT_ARRAY_ROWS(type, member)                                                                              \
     {"--field", 0, "NAME[:COMPONENT|:magnitude]", "array to show; default the first there is", TC_OPTION_TEXT,                 \
      .at = TC_INPUT_AT(type, member, field)},                                                                          \
     {"--cell-data", 0, NULL, "the array is per cell", TC_OPTION_FLAG, .at = TC_INPUT_AT(type, member, cell_data)},     \
     {"--point-data", 0, NULL, "the array is per point; tried first when neither is given", TC_OPTION_FLAG,             \
-     .at = TC_INPUT_AT(type, member, point_data)},                                                                     \
-    {"--time", 0, "T", "the step at or before this time", TC_OPTION_REAL, .at = TC_INPUT_AT(type, member, time),       \
-     .has = TC_INPUT_AT(type, member, has_time) + 1},                                                                  \
+     .at = TC_INPUT_AT(type, member, point_data)}
+#define TC_INPUT_STEP_ROWS(type, member)                                                                               \
     {"--step", 0, "N", "the step by number, from 0; negative counts from the end", TC_OPTION_INT,                      \
      .at = TC_INPUT_AT(type, member, step), .has = TC_INPUT_AT(type, member, has_step) + 1},                           \
     {"--refine", 0, "N", "split curved (quadratic) cells N times before they become linear; default 0", TC_OPTION_INT,         \

@@ -1,6 +1,6 @@
 /* render_meta.c: the metadata that a picture carries, so that it can be made again. */
 #define _GNU_SOURCE
-#include "cli/render_report.h"
+#include "cli/render_choose.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -165,6 +165,7 @@ void tc_meta_make(tc_meta *out, const tc_render_run *run, int argc, char **argv)
     tc_meta_add(out, "tetcast:transfer_function", tc_transfer_text(run));
     tc_meta_add(out, "tetcast:field", *field ? strdup(field) : NULL);
     tc_meta_add(out, "tetcast:notes", tc_notes_text(run));
+    tc_meta_add(out, "tetcast:choice", run->chosen ? tc_compact(tc_choice_json(run)) : NULL);
     tc_meta_add(out, "tetcast:verify", run->verified ? tc_verify_text(&run->verify) : NULL);
 }
 

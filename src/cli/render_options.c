@@ -2,6 +2,7 @@
 #include "cli/render_options.h"
 #include "cli/commands.h"
 #include "cli/json_out.h"
+#include "cli/render_choose.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -58,7 +59,7 @@ static const tc_choice tc_lock_choice[] = {
     {NULL, 0, false},
 };
 
-static bool tc_size_parse(void *field, const char *text, char *why)
+bool tc_size_parse(void *field, const char *text, char *why)
 {
     int width, height;
     char rest;
@@ -131,7 +132,9 @@ static bool tc_table_size_parse(void *field, const char *text, char *why)
 /* clang-format off */
 static const tc_option tc_render_option[] = {
     {.help = "Data"},
-    TC_INPUT_FIELD_ROWS(tc_render_command, source),
+    TC_INPUT_ARRAY_ROWS(tc_render_command, source),
+    {"--time", 0, "T", "the step at or before this time; a number that ends in ms is --frame-time", TC_OPTION_CUSTOM, .at = 0, .parse = tc_time_parse},
+    TC_INPUT_STEP_ROWS(tc_render_command, source),
     TC_INPUT_GAP_ROW(tc_render_command, source),
     {.help = "Picture"},
     {"--output", 'o', "FILE", "png, exr, tif or jpg by extension; - for PNG on stdout; default INPUT's name + .png, here", TC_OPTION_TEXT, AT(output)},
@@ -173,6 +176,10 @@ static const tc_option tc_render_option[] = {
     {"--steps-per-pass", 0, "K|auto", "cells a ray crosses in one pass", TC_OPTION_INT, AT(steps_per_pass), .low = 1, .high = 65536, .choice = tc_auto_choice},
     {"--z-update-every", 0, "N|auto|never", "passes between locks of finished rays by the depth test", TC_OPTION_INT, AT(z_update_every), .low = 1, .high = 65536, .choice = tc_lock_choice},
     TC_INPUT_THREADS_ROW(tc_render_command, source),
+    {.help = "Accuracy or time instead of knobs"},
+    {"--error", 0, "E", "the cheapest setting whose error stays below E, of 1; measured for this mesh and function, and checked in the picture", TC_OPTION_REAL, AT(error), .low = 0, .high = 1, .open = true},
+    {"--frame-time", 0, "MS", "the most accurate setting that makes a frame within so many milliseconds", TC_OPTION_REAL, AT(frame_time), .low = 0, .high = 1e9, .open = true},
+    {"--no-cache", 0, NULL, "for --error and --frame-time: measure anew, keep nothing", TC_OPTION_FLAG, AT(no_cache)},
     {.help = "Measuring"},
     {"--verify", 0, "N", "trace N pixels again in double precision and report the error", TC_OPTION_U64, AT(verify), HAS(has_verify), .low = 1, .high = 1e18},
     {"--error-image", 0, "FILE", "write the error of each pixel; of all, unless --verify says how many; .exr and .tif: as floats", TC_OPTION_TEXT, AT(error_image)},
@@ -184,7 +191,6 @@ static const tc_option tc_render_option[] = {
     {"--iso", .kind = TC_OPTION_LATER},
     {"--shade", .kind = TC_OPTION_LATER},
     {"--clip", .kind = TC_OPTION_LATER},
-    {"--error", .kind = TC_OPTION_LATER},
     {"--shell", .kind = TC_OPTION_LATER},
 };
 /* clang-format on */
@@ -301,6 +307,11 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
     if (out->stepper == TC_STEPPER_PLANES && !strcmp(out->driver, "reference")) {
         tc_talk_error(talk,
                       "--stepper planes walks from cell to cell, which --driver reference does not: leave one out");
+        return TC_EXIT_USAGE;
+    }
+    if (out->stepper == TC_STEPPER_PLANES && tc_choice_asked(out)) {
+        tc_talk_error(talk, "--stepper planes loses rays, so no error can be promised: leave out %s",
+                      out->error > 0 ? "--error" : "--frame-time");
         return TC_EXIT_USAGE;
     }
     if (out->stepper == TC_STEPPER_PLANES && out->audit) {

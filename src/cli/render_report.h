@@ -28,6 +28,8 @@ typedef struct tc_render_run {
     tc_render_stats count;              /* of the counted frame where there is one, else of the last */
     tc_spread frame, first_hit, march, readback;
     int frames; /* timed ones */
+    tc_choose_report choice; /* where chosen is set */
+    bool chosen;
     tc_verify_result verify;
     bool verified, counted;
     tc_image *errors; /* of tc_verify_image; NULL without --error-image */

@@ -1,5 +1,5 @@
 /* render_stats.c: the --stats JSON of a render. Every number that was not measured is absent, never 0. */
-#include "cli/render_report.h"
+#include "cli/render_choose.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -181,6 +181,8 @@ json_t *tc_render_stats_json(const tc_render_run *run)
     tc_json_count(out, "frames", (uint64_t)run->frames);
     tc_json_part(out, "march", tc_march_json(run));
     json_object_set_new(out, "effects", json_pack("[s]", "density-emitter"));
+    if (run->chosen)
+        tc_json_part(out, "choice", tc_choice_json(run));
     if (run->verified)
         tc_json_part(out, "verify", tc_verify_json(&run->verify, run->options->seed));
     if (self > 0)

@@ -80,7 +80,6 @@ for case in \
     "--iso is not in this version|render a --iso 1" \
     "--shade is not in this version|render a --shade phong" \
     "--clip is not in this version|render a --clip x" \
-    "--error is not in this version|render a --error 0.01" \
     "--shell is not in this version|render a --shell x" \
     "the nearest is 'heatsink'|render synth:heatsnk" \
     "the number of cells|render synth:ball:many" \
