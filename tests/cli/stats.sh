@@ -30,6 +30,18 @@ json m.json eq march.samples adaptive ge march.pixels_refined 10 le march.pixels
 run 0 render $sink --stats m.json --samples 4
 json m.json eq march.samples 4 lacks march.pixels_refined eq march.state_bits 32 ge march.rays $((3 * rays))
 
+# Where rounding folds the hull (here entries count twice) a picture is made again by peeling, with all of its rays.
+run 0 render $sink --samples adaptive -o once.exr
+sed 's/atomicCounterIncrement(entries);/& atomicCounterIncrement(entries);/' "$TC_SOURCE/gpu/shaders/first_hit.frag" >first_hit.frag
+TETCAST_SHADERS=.
+export TETCAST_SHADERS
+run 0 render $sink --samples adaptive -o twice.exr --verbose --stats twice.json
+unset TETCAST_SHADERS
+rm first_hit.frag
+says "the frame is peeled"
+json twice.json eq march.rays_lost 0 ge march.pixels_refined 10
+run 0 compare once.exr twice.exr
+
 # Repeated: median with its extremes, in order.
 run 0 render $sink --stats r.json --repeat 3
 json r.json eq frames 3 has time_ms.frame has time_ms.frame_min has time_ms.frame_max lacks verify
