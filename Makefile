@@ -8,7 +8,8 @@
 #   make hard       the hard cases at length: 100 million rays, beside VTK's renderers; tables in build/hard-cases
 #   make fuzz       FUZZ_SECONDS (60) of random inputs for each part that reads what others wrote; FUZZ_TARGETS=… for some
 #   make bench      measure, side by side with VTK; what exact signs cost
-#   make docs       the figures in docs/images, and the manual pages as HTML in build/docs
+#   make docs       the figures in docs/images, docs/accuracy.md (20 minutes; ACCURACY_ARGS=--quick tries it in
+#                   build/accuracy-quick), and the manual pages as HTML in build/docs
 #   make install    to PREFIX (/usr/local), below DESTDIR
 #   make clean
 #
@@ -21,6 +22,7 @@ PREFIX     ?= /usr/local
 PACKAGES   ?= yes
 CMAKE_ARGS ?=
 BENCH_ARGS ?=
+ACCURACY_ARGS ?=
 FUZZ_SECONDS ?= 60
 FUZZ_TARGETS ?= preset options mesh sniff wire reply split
 
@@ -31,7 +33,7 @@ BASE_PACKAGES := gcc g++ libc6-dev cmake ninja-build pkg-config libvtk9-dev libt
 BENCH_PACKAGES := python3 python3-vtk9 python3-numpy xvfb xauth
 VALGRIND_PACKAGES := valgrind
 FUZZ_PACKAGES := clang-14 libclang-rt-14-dev
-DOCS_PACKAGES := groff gnuplot-nox
+DOCS_PACKAGES := groff gnuplot-nox python3
 
 CONFIGURE = cmake -S . -B $(BUILD) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-G Ninja) \
 	-DCMAKE_BUILD_TYPE=$(BUILD_TYPE) -DTC_WERROR=$(WERROR) -DCMAKE_INSTALL_PREFIX=$(PREFIX) $(CMAKE_ARGS)
@@ -105,6 +107,7 @@ bench: all
 docs: all
 	@$(call packages,$(DOCS_PACKAGES))
 	sh docs/figures.sh $(BUILD)/tetcast
+	/usr/bin/python3 docs/accuracy.py $(BUILD)/tetcast $(BUILD)/accuracy $(ACCURACY_ARGS)
 	@mkdir -p $(BUILD)/docs
 	@for page in docs/man/*.1; do \
 		html=$(BUILD)/docs/$$(basename $$page .1).html; \

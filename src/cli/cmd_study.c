@@ -177,13 +177,22 @@ static int tc_study_list_json(tc_talk *talk)
 
 /* ------------------------------------------------------------------------------------------------------- the run */
 
+/* What rows are told to. */
+typedef struct tc_study_seen {
+    tc_talk *talk;
+    int64_t lost; /* rays, by settings that must not lose any */
+} tc_study_seen;
+
 static bool tc_study_row_seen(void *user, const tc_study_row *row)
 {
-    tc_talk *talk = user;
+    tc_study_seen *seen = user;
+    tc_talk *talk = seen->talk;
     if (row->note[0] && strcmp(row->setting, "planes") != 0)
         tc_talk_detail(talk, "%s, %s, view %d, %s: %s", row->scene, row->function, row->view, row->setting, row->note);
     if (row->rays_lost > 0 && strcmp(row->setting, "planes") != 0)
-        tc_talk_always(talk, "%s, %s, view %d: %lld rays were lost by the setting %s", row->scene, row->function,
+        seen->lost += row->rays_lost;
+    if (row->rays_lost > 0 && strcmp(row->setting, "planes") != 0)
+        tc_talk_detail(talk, "%s, %s, view %d: %lld rays were lost by the setting %s", row->scene, row->function,
                        row->view, (long long)row->rays_lost, row->setting);
     return true;
 }
@@ -293,6 +302,7 @@ static int tc_study_do(const tc_study_command *options, const tc_study_names *fu
 {
     tc_error err = {0};
     tc_study *study = NULL;
+    tc_study_seen seen = {talk, 0};
     size_t n_input = options->input ? 1 : sizeof tc_study_builtin / sizeof *tc_study_builtin;
     const tc_study_options open = {.folder = options->folder,
                                    .restart = options->restart,
@@ -309,13 +319,18 @@ static int tc_study_do(const tc_study_command *options, const tc_study_names *fu
                                    .threads = options->source.threads,
                                    .n_scene = (int)n_input * functions->n,
                                    .row = tc_study_row_seen,
-                                   .user = talk};
+                                   .user = &seen};
     tc_status status = tc_study_open(&study, &open, &talk->log, &err);
     int code = status ? tc_talk_status(talk, status, &err) : -1;
     for (size_t i = 0; i < n_input && code < 0; i++)
         code = tc_study_input(study, options->input ? options->input : tc_study_builtin[i], options, functions, talk);
     if (code < 0)
         code = tc_study_write(study, options, talk);
+    if (code < 0 && seen.lost > 0) {
+        tc_talk_error(talk, "%lld rays were lost by other settings than planes (%s/results.csv says where); please report it",
+                      (long long)seen.lost, options->folder);
+        code = TC_EXIT_FAILED;
+    }
     tc_study_close(&study);
     return code;
 }

@@ -5,7 +5,7 @@ man=$TC_SOURCE/docs/man
 
 options() { grep -oE -e '(^|[^-a-z])--[a-z][a-z-]*' | grep -oE -e '--[a-z][a-z-]*' | sort -u; }
 
-for command in render info compare synth backends; do
+for command in render study info compare synth backends; do
     page=$man/tetcast-$command.1
     [ -f "$page" ] || { fail "there is no $page"; continue; }
     run 0 $command --help
