@@ -292,7 +292,45 @@ void tc_segments_row(double (*out)[4], double *error, const tc_segments *segment
     *error = fmax(*error, thickest * thickest * thickest * thickest * thickest / 120);
 }
 
-void tc_segments_between(double out[4], const tc_segments *segments, double front, double back, size_t *hint)
+/* (e0 - e1 l + e2 l^2 - e3 l^3) / (d - d^2 l/2 + d^3 l^2/6 - d^4 l^3/24), term by term. */
+static void divide(tc_segment_series *out, const tc_moments *m, double rate)
+{
+    memset(out, 0, sizeof *out);
+    const double d = rate * m->depth;
+    if (!(d > 0))
+        return;
+    const double b1 = -d / 2, b2 = d * d / 6, b3 = -d * d * d / 24, r1 = -rate, r2 = rate * rate,
+                 r3 = -rate * rate * rate;
+    out->depth = d;
+    for (int c = 0; c < 3; c++) {
+        const double c0 = m->emission[0][c] / m->depth, c1 = r1 * m->emission[1][c] / m->depth - b1 * c0;
+        const double c2 = r2 * m->emission[2][c] / m->depth - b1 * c1 - b2 * c0;
+        out->mean[c] = c0;
+        out->term[0][c] = c1;
+        out->term[1][c] = c2;
+        out->term[2][c] = r3 * m->emission[3][c] / m->depth - b1 * c2 - b2 * c1 - b3 * c0;
+    }
+}
+
+void tc_segments_series(tc_segment_series *out, const tc_segments *segments, size_t front)
+{
+    const tc_segments *s = segments;
+    memset(&out[front], 0, sizeof *out);
+    out[front].depth = s->node[front][3];
+    for (int c = 0; c < 3; c++)
+        out[front].mean[c] = s->node[front][3] > 0 ? s->node[front][c] / s->node[front][3] : 0;
+    for (int up = 0; up < 2; up++) {
+        tc_moments sum;
+        memset(&sum, 0, sizeof sum);
+        for (size_t at = front; up ? at + 1 < s->n_node : at > 0;) {
+            join(&sum, up ? &s->up[at] : &s->down[at - 1]);
+            at = up ? at + 1 : at - 1;
+            divide(&out[at], &sum, 1 / fabs(s->x[at] - s->x[front]));
+        }
+    }
+}
+
+void tc_segments_short(double out[4], const tc_segments *segments, double front, double back, double part, size_t *hint)
 {
     const tc_segments *s = segments;
     const bool up = back > front;
@@ -307,12 +345,13 @@ void tc_segments_between(double out[4], const tc_segments *segments, double fron
         double value[4], emission[4];
         for (int c = 0; c < 4; c++)
             value[c] = piece->value[0][c] + t * (piece->value[1][c] - piece->value[0][c]);
+        value[3] *= part;
         emit(emission, value);
         constant(out, emission);
         *hint = p;
         return;
     }
-    march m = {.pass = 1, .rate = 1 / fabs(back - front)};
+    march m = {.pass = 1, .rate = part / fabs(back - front)};
     double depth = 0;
     for (;;) {
         const tc_segment_piece *piece = &s->piece[p];
@@ -339,4 +378,9 @@ void tc_segments_between(double out[4], const tc_segments *segments, double fron
     for (int c = 0; c < 3; c++)
         out[c] = m.color[c];
     out[3] = -expm1(-m.rate * depth);
+}
+
+void tc_segments_between(double out[4], const tc_segments *segments, double front, double back, size_t *hint)
+{
+    tc_segments_short(out, segments, front, back, 1, hint);
 }

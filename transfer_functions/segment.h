@@ -43,8 +43,21 @@ void tc_segments_finish(tc_segments *segments);
  * the series (an upper bound). Cost: O(n_node) while the optical depth stays below 1/16. */
 void tc_segments_row(double (*out)[4], double *error, const tc_segments *segments, size_t front);
 
+/* A segment whose length is the share l of the built one, as a series in l for small optical depth:
+ *   colour / opacity = mean + term[0] l + term[1] l^2 + term[2] l^3 + …,   mean = emission / extinction
+ * depth is its optical depth at l = 1. All are 0 where there is no extinction. */
+typedef struct tc_segment_series {
+    double depth, mean[3], term[3][3];
+} tc_segment_series;
+
+/* From node `front` to every node: out [n_node]. Cut where the terms are below (depth l)^4 / 720. Cost: O(n_node). */
+void tc_segments_series(tc_segment_series *out, const tc_segments *segments, size_t front);
+
 /* Colour and opacity of one segment between any two x. *hint: any value < n_piece; keeps the place for the next call.
  */
 void tc_segments_between(double out[4], const tc_segments *segments, double front, double back, size_t *hint);
+/* The same for the share `part` of the built length. */
+void tc_segments_short(double out[4], const tc_segments *segments, double front, double back, double part,
+                       size_t *hint);
 
 #endif

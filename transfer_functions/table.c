@@ -16,6 +16,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "transfer_functions/half.h"
 #include "transfer_functions/segment.h"
 
 #include <math.h>
@@ -42,18 +43,6 @@ typedef struct build {
 
 /* --------------------------------------------------------------------------------------------------- out of floats */
 
-/* Nearest IEEE half of v in [0, 65504]. Below the normal halves, adding 0.5 rounds to their spacing. */
-static inline uint32_t half_of(float v)
-{
-    const float small = v + 0.5f;
-    uint32_t bits, small_bits;
-    memcpy(&bits, &v, sizeof bits);
-    memcpy(&small_bits, &small, sizeof small_bits);
-    const uint32_t normal = (bits - (UINT32_C(112) << 23) + 0xfff + ((bits >> 13) & 1)) >> 13;
-    const uint32_t tiny = small_bits - (UINT32_C(126) << 23);
-    return bits < (UINT32_C(113) << 23) ? tiny : normal;
-}
-
 static void store_8(uint8_t *restrict out, const float *restrict value, size_t n)
 {
     for (size_t i = 0; i < n; i++)
@@ -63,7 +52,7 @@ static void store_8(uint8_t *restrict out, const float *restrict value, size_t n
 static void store_16(uint16_t *restrict out, const float *restrict value, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        out[i] = (uint16_t)half_of(value[i]);
+        out[i] = tc_half_of(value[i]);
 }
 
 static void store_row(const build *job, size_t slice, size_t back, const quad *row)
@@ -199,20 +188,19 @@ static void base_rows(void *context, size_t begin, size_t end, int worker)
     }
 }
 
-/* The places of both axes in one ascending list, each once. */
-static size_t merge_axes(double *x, build *job)
+size_t tc_table_axes(double *x, int *node_front, int *node_back, size_t *front_node, const int size[3])
 {
     size_t n = 0, front = 0, back = 0;
-    const size_t last_front = job->n_front - 1, last_back = job->n_back - 1;
+    const size_t last_front = (size_t)size[0] - 1, last_back = (size_t)size[1] - 1;
     while (front <= last_front || back <= last_back) {
         const uint64_t a = (uint64_t)front * last_back, b = (uint64_t)back * last_front; /* front/last, back/last */
         const bool take_front = front <= last_front && (back > last_back || a <= b);
         const bool take_back = back <= last_back && (front > last_front || b <= a);
         x[n] = take_front ? (double)front / (double)last_front : (double)back / (double)last_back;
-        job->node_front[n] = take_front ? (int)front : -1;
-        job->node_back[n] = take_back ? (int)back : -1;
+        node_front[n] = take_front ? (int)front : -1;
+        node_back[n] = take_back ? (int)back : -1;
         if (take_front)
-            job->front_node[front++] = n;
+            front_node[front++] = n;
         back += take_back;
         n++;
     }
@@ -221,7 +209,7 @@ static size_t merge_axes(double *x, build *job)
 
 /* ------------------------------------------------------------------------------------------------------- the whole */
 
-static tc_status check(const tc_transfer *tf, const tc_table_options *options, tc_error *err)
+tc_status tc_table_check(const tc_transfer *tf, const tc_table_options *options, tc_error *err)
 {
     static const char *const axis[3] = {"s_front", "s_back", "length"};
     if (!tf)
@@ -269,7 +257,7 @@ static tc_status allocate(build *job, int threads, tc_error *err)
 tc_status tc_table_build(tc_table *out, const tc_transfer *tf, const tc_table_options *options, tc_error *err)
 {
     memset(out, 0, sizeof *out);
-    tc_status status = check(tf, options, err);
+    tc_status status = tc_table_check(tf, options, err);
     if (status != TC_OK)
         return status;
     const double start = tc_now_ms();
@@ -292,7 +280,7 @@ tc_status tc_table_build(tc_table *out, const tc_transfer *tf, const tc_table_op
         status = tc_fail_memory(err, "the pre-integration table", job.n_front + job.n_back, sizeof *x);
     if (status != TC_OK)
         goto done;
-    const size_t n_node = merge_axes(x, &job);
+    const size_t n_node = tc_table_axes(x, job.node_front, job.node_back, job.front_node, options->size);
     status = tc_segments_build(&job.segments, tf, options->span, options->length_max / (options->size[2] - 1), x,
                                n_node, err);
     if (status != TC_OK)
