@@ -60,10 +60,11 @@ char *tc_calibration_key(const tc_mesh *mesh, const tc_transfer *tf, double unit
     int length = asprintf(
         &key,
         "format %d, tetcast %s, mesh %016llx, values %016llx, function %016llx, unit %.17g, nan %s, renderer %s, "
-        "integrator %d, order %d, split %.17g, table %dx%dx%d-%d, stop %.17g, state %d, stepper %d",
+        "integrator %d, order %d, split %.17g, table %dx%dx%d-%d, stop %.17g, state %d, stepper %d%s",
         FORMAT, tc_version(), (unsigned long long)shape, (unsigned long long)values, (unsigned long long)knots, unit,
         nan, renderer, (int)fixed->integrator, fixed->integral_order, fixed->integral_split, size[0], size[1], size[2],
-        (int)fixed->table_format, fixed->opacity_stop, (int)fixed->state_format, (int)fixed->stepper);
+        (int)fixed->table_format, fixed->opacity_stop, (int)fixed->state_format, (int)fixed->stepper,
+        fixed->samples == TC_SAMPLES_ADAPTIVE ? ", adaptive" : ""); /* it errs by more than its rays */
     return length < 0 ? NULL : key;
 }
 

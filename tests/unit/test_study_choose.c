@@ -306,6 +306,7 @@ static void the_key_is_of_all_that_matters(void **state)
     DIFFERS(fixed.has_nan_color = true, fixed.has_nan_color = false);
     DIFFERS(fixed.integrator = TC_INTEGRATOR_TABLE, fixed.integrator = TC_INTEGRATOR_AUTO);
     DIFFERS(fixed.opacity_stop = 0.9, fixed.opacity_stop = 0);
+    DIFFERS(fixed.samples = TC_SAMPLES_ADAPTIVE, fixed.samples = 0);
     DIFFERS(fixed.state_format = TC_STATE_16F, fixed.state_format = TC_STATE_AUTO);
     other = tc_calibration_key(&mesh, &tf, 2, "r", &fixed);
     assert_string_not_equal(first, other);
