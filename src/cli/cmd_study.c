@@ -166,8 +166,7 @@ static int tc_study_list_json(tc_talk *talk)
                                                   "what", setting[i].what));
     const tc_standard_function *function = tc_transfer_standard_list(&n);
     for (size_t i = 0; i < n; i++)
-        json_array_append_new(functions,
-                              json_pack("{s:s, s:s}", "name", function[i].name, "what", function[i].what));
+        json_array_append_new(functions, json_pack("{s:s, s:s}", "name", function[i].name, "what", function[i].what));
     json_object_set_new(root, "settings", settings);
     json_object_set_new(root, "functions", functions);
     int code = tc_json_write(root, "-", talk);
@@ -209,8 +208,14 @@ static int tc_study_request(char **out, const tc_study_command *o, tc_talk *talk
         return TC_EXIT_FAILED;
     }
     const tc_input_options *s = &o->source;
-    fprintf(stream, "input %s\nfield %s\nassociation %s\n", real ? real : o->input ? o->input : "built-in",
-            s->field ? s->field : "", s->cell_data ? "cell" : s->point_data ? "point" : "");
+    fprintf(stream, "input %s\nfield %s\nassociation %s\n",
+            real       ? real
+            : o->input ? o->input
+                       : "built-in",
+            s->field ? s->field : "",
+            s->cell_data    ? "cell"
+            : s->point_data ? "point"
+                            : "");
     if (s->has_time)
         fprintf(stream, "time %.17g\n", s->time);
     if (s->has_step)
@@ -327,7 +332,8 @@ static int tc_study_do(const tc_study_command *options, const tc_study_names *fu
     if (code < 0)
         code = tc_study_write(study, options, talk);
     if (code < 0 && seen.lost > 0) {
-        tc_talk_error(talk, "%lld rays were lost by other settings than planes (%s/results.csv says where); please report it",
+        tc_talk_error(talk,
+                      "%lld rays were lost by other settings than planes (%s/results.csv says where); please report it",
                       (long long)seen.lost, options->folder);
         code = TC_EXIT_FAILED;
     }
@@ -362,9 +368,10 @@ const tc_command tc_command_study = {
     .name = "study",
     .arguments = "[INPUT]",
     .what = "Accuracy against time, knob by knob.",
-    .about = "Renders INPUT (a file or synth:NAME[:CELLS]; without one, four synthetic datasets) from several directions "
-             "under every setting of every knob, times it, compares every pixel with the double-precision reference, and "
-             "writes tables and plots.",
+    .about =
+        "Renders INPUT (a file or synth:NAME[:CELLS]; without one, four synthetic datasets) from several directions "
+        "under every setting of every knob, times it, compares every pixel with the double-precision reference, and "
+        "writes tables and plots.",
     .option = tc_study_option,
     .n_option = sizeof tc_study_option / sizeof *tc_study_option,
     .least = 0,

@@ -60,7 +60,7 @@ static void write_axis(tc_text *out, char name, const tc_axis *a)
                 a->hi, a->log ? "set" : "unset", name);
     if (a->tics)
         tc_text_add(out, "set %ctics %s\n", name, a->tics);
-    else if (a->log && a->hi / a->lo < 30) /* within a decade or so its own tics are too few */
+    else if (a->log && a->hi / a->lo < 300) /* within two decades its own tics are too few */
         tc_text_add(out,
                     "set %ctics autofreq\nset %ctics add (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, "
                     "2000, 5000)\nset format %c \"%%g\"\n",

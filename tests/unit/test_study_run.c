@@ -228,7 +228,8 @@ static void every_knob_turns_what_it_says(void **state)
     assert_int_equal(find(&s, 0, "pass-1")->steps_per_pass, 1);
     assert_int_equal(find(&s, 0, "pass-8")->steps_per_pass, 8);
     assert_true(find(&s, 0, "pass-1")->passes > 2 * find(&s, 0, "pass-8")->passes);
-    assert_int_equal(find(&s, 0, "lock-never")->z_updates, 0);
+    assert_int_equal(find(&s, 0, "lock-never")->z_update_every, -1);
+    assert_true(find(&s, 0, "lock-never")->fragments > 2 * find(&s, 0, "lock-2")->fragments);
     assert_int_equal(find(&s, 0, "lock-2")->z_update_every, 2);
     assert_int_equal(find(&s, 0, "lock-14")->z_update_every, 14);
     assert_int_equal(find(&s, 0, "state-16f")->state_bits, 16);
