@@ -88,14 +88,17 @@ static tc_status calibrate(chooser *c, tc_error *err)
 /* ------------------------------------------------------------------------------------------------------- the check */
 
 /* What candidate k errs by beyond what its opacity stop can do (what a ray that ends at opacity A may still gather is
- * at most 1 - A) is the integrator's: the others of its group err by it, too, but for what their stops make up. */
-static void raise_group(chooser *c, size_t k)
+ * at most 1 - A) is the integrator's: the others of its group err by it, too, but for what their stops make up; those
+ * whose calibrated error was the same, `before`, owe nothing to their stops. */
+static void raise_group(chooser *c, size_t k, double before)
 {
     const tc_candidate *one = &c->candidate[k];
     for (size_t i = 0; i < c->n; i++) {
         tc_candidate *other = &c->candidate[i];
-        if (other->group == one->group && isfinite(other->error))
-            other->error = fmax(other->error, one->error - (1 - one->stop) - (1 - other->stop));
+        if (other->group != one->group || !isfinite(other->error))
+            continue;
+        double share = other->error == before ? 0 : (1 - one->stop) + (1 - other->stop);
+        other->error = fmax(other->error, one->error - share);
     }
 }
 
@@ -123,8 +126,9 @@ static tc_status check(bool *held, chooser *c, size_t k, double error, tc_error 
     if (max > one->error) { /* the next run knows */
         if (one->error > 0)
             c->kept.ratio = fmax(c->kept.ratio, max / one->error);
+        double before = one->error;
         one->error = max;
-        raise_group(c, k);
+        raise_group(c, k, before);
         c->changed = true;
     }
     if (!*held)
@@ -238,14 +242,12 @@ static tc_status fit_group(size_t *fit, chooser *c, const size_t *ladder, size_t
     bool good;
     size_t low = 0, high = m - 1; /* ladder[low] fits, ladder[high] does not */
     *fit = c->n;
-    tc_status status = fits(&good, c, ladder[high], err);
-    if (status == TC_OK && good)
-        *fit = ladder[high];
-    if (status != TC_OK || good || m == 1)
-        return status;
-    status = fits(&good, c, ladder[low], err);
+    tc_status status = fits(&good, c, ladder[low], err);
     if (status != TC_OK || !good)
         return status;
+    status = fits(&good, c, ladder[high], err);
+    if (status == TC_OK && good)
+        low = high;
     while (status == TC_OK && high - low > 1) {
         size_t middle = low + (high - low) / 2;
         status = fits(&good, c, ladder[middle], err);
@@ -255,10 +257,26 @@ static tc_status fit_group(size_t *fit, chooser *c, const size_t *ladder, size_t
     return status;
 }
 
+/* The fastest candidate. The first of each group are timed side by side, where one is not yet: a lower stop is never
+ * slower. */
+static tc_status find_fastest(size_t *out, chooser *c, tc_error *err)
+{
+    size_t index[TC_CANDIDATE_MAX];
+    size_t m = tc_candidate_frugal(index, c->candidate, c->n, DBL_MAX);
+    bool timed = c->kept.view == c->view;
+    for (size_t k = 0; k < m; k++)
+        timed = timed && isfinite(c->candidate[index[k]].ms);
+    tc_status status = timed ? TC_OK : time_them(c, index, m, err);
+    if (status == TC_OK)
+        *out = tc_candidate_cheapest(c->candidate, index, m);
+    return status;
+}
+
 /* The most accurate candidate within the budget; n where none fits. */
 static tc_status find_in_time(size_t *chosen, chooser *c, tc_error *err)
 {
-    tc_status status = TC_OK;
+    size_t any;
+    tc_status status = find_fastest(&any, c, err); /* for their times */
     bool done[GROUPS] = {false};
     int groups = c->candidate[c->n - 1].group + 1;
     *chosen = c->n;
@@ -281,17 +299,6 @@ static tc_status find_in_time(size_t *chosen, chooser *c, tc_error *err)
         if (status == TC_OK && fit < c->n && (*chosen == c->n || c->candidate[fit].error < c->candidate[*chosen].error))
             *chosen = fit;
     }
-    return status;
-}
-
-/* The first of each group side by side: a lower stop is never slower. */
-static tc_status find_fastest(size_t *chosen, chooser *c, tc_error *err)
-{
-    size_t index[TC_CANDIDATE_MAX];
-    size_t m = tc_candidate_frugal(index, c->candidate, c->n, DBL_MAX);
-    tc_status status = time_them(c, index, m, err);
-    if (status == TC_OK)
-        *chosen = tc_candidate_cheapest(c->candidate, index, m);
     return status;
 }
 
@@ -319,7 +326,7 @@ static tc_status choose_time(size_t *chosen, chooser *c, tc_error *err)
             c->candidate[*chosen].ms = r->ms;
         kept = false;
     }
-    r->in_time = r->in_time && r->ms <= budget;
+    r->in_time = r->ms <= budget; /* of the picture's own frames: they are what was asked about */
     if (r->in_time) {
         snprintf(r->why, sizeof r->why,
                  "frame time %.4g ms: %s: the most accurate setting that fits, %.1f ms a frame, error %.2g in this "
