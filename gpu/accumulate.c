@@ -10,7 +10,7 @@
 
 static tc_status get_program(GLuint *program, const tc_job *job, const char *fragment, bool share, tc_error *err)
 {
-    bool depth = job->integrator != TC_INTEGRATOR_TABLE;
+    bool depth = tc_job_holds_depth(job);
     const char *defines = depth && share ? "#define COLOR_HOLDS_DEPTH\n#define SHARE\n"
                           : depth        ? "#define COLOR_HOLDS_DEPTH\n"
                           : share        ? "#define SHARE\n"

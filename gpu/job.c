@@ -5,19 +5,24 @@
 
 #include <stdio.h>
 
+bool tc_job_holds_depth(const tc_job *job)
+{
+    return job->integrator != TC_INTEGRATOR_TABLE || job->drift;
+}
+
 void tc_job_defines(char *out, size_t capacity, const tc_job *job)
 {
     bool running = job->integrator == TC_INTEGRATOR_INTEGRAL;
-    snprintf(out, capacity, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s", job->has_imaginary ? "#define HAS_IMAGINARY\n" : "",
+    snprintf(out, capacity, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s", job->has_imaginary ? "#define HAS_IMAGINARY\n" : "",
              job->peel ? "#define PEEL\n" : "", job->cell_data ? "#define CELL_DATA\n" : "",
              job->extend ? "#define TF_EXTEND\n" : "", job->frame->clip_near ? "#define CLIP_NEAR\n" : "",
              job->frame->clip_far ? "#define CLIP_FAR\n" : "", job->frame->ahead ? "#define ENTRY_AHEAD\n" : "",
-             job->integrator != TC_INTEGRATOR_TABLE ? "#define COLOR_HOLDS_DEPTH\n" : "",
-             job->float_table ? "#define TF_TABLE_FLOAT\n" : "", job->count ? "#define COUNT\n" : "",
+             tc_job_holds_depth(job) ? "#define COLOR_HOLDS_DEPTH\n" : "", job->count ? "#define COUNT\n" : "",
              job->audit ? "#define AUDIT\n" : "", job->nonfinite ? "#define NONFINITE\n" : "",
-             job->has_nan_color ? "#define NAN_COLOR\n" : "", job->software ? "#define SOFTWARE\n" : "",
-             running && job->order == 1 ? "#define TF_FIRST_ORDER\n" : "",
-             running && job->split > 0 ? "#define TF_SPLIT\n" : "");
+             job->drift && job->steps ? "#define TF_STEPS\n" : "", job->has_nan_color ? "#define NAN_COLOR\n" : "",
+             job->software ? "#define SOFTWARE\n" : "", running && job->order == 1 ? "#define TF_FIRST_ORDER\n" : "",
+             running && job->split > 0 ? "#define TF_SPLIT\n" : "", running && job->hard > 0 ? "#define TF_HARD\n" : "",
+             job->dense ? "#define PIECES_DENSE\n" : "");
 }
 
 void tc_job_bind_mesh(const tc_job *job, GLuint program)

@@ -27,11 +27,19 @@ typedef struct tc_job {
     double map[2];                               /* packed scalar → x = s*map[0] + map[1] */
     double texel[3][2];                          /* table: coordinate → texture coordinate, by axis */
     double grid[2];                              /* running integrals: intervals between nodes, length of one */
-    bool float_table;
-    double near;        /* running integrals: smallest difference */
-    int order;          /* running integrals: 1 or 2 */
-    double split;       /* … segments are cut to this optical depth; 0: never */
-    int n_piece;        /* exact: pieces of the function */
+    bool drift;                                  /* the table is one of drift.h, and below is what it needs: */
+    double octave[3];  /* unit distances → octaves of its length axis; those → texture coordinate */
+    double tf_most[3]; /* largest r, g, b of the function */
+    bool steps;        /* it has steps */
+    double near;       /* running integrals: smallest difference */
+    int order;         /* running integrals: 1 or 2 */
+    double split;      /* … segments are cut to this optical depth; 0: never */
+    double hard;       /* … segments whose drift adds more are integrated exactly; 0: none are; */
+    double hard_depth; /* … and those of more optical depth, or */
+    double hard_relative;
+    double hard_slope;  /* … of a length that is more than that many times its difference of x */
+    bool dense;         /* … a segment of one may have an optical depth above 1 */
+    int n_piece;        /* exact, hard: pieces of the function */
     bool nonfinite;     /* some scalars are NaN: their cells contribute nothing, */
     bool has_nan_color; /* … or nan_color: r, g, b, attenuation per unit distance */
     double nan_color[4];
@@ -54,6 +62,8 @@ typedef struct tc_job_result {
     int64_t *fragments; /* [passes], only when counting; caller frees */
 } tc_job_result;
 
+/* Does the fourth channel of a ray's colour hold optical depth, or else transmittance? */
+bool tc_job_holds_depth(const tc_job *job);
 /* Program text options of a job: "#define …" lines into out. */
 void tc_job_defines(char *out, size_t capacity, const tc_job *job);
 /* Sets what march and first hit share: rays, mesh textures (units 0, 1, 3). The program must be in use. */

@@ -18,6 +18,7 @@
 enum { AHEAD = 2, UNIT_NODES = 2, UNIT_WALK = 4, UNIT_COLOR, UNIT_AT, UNIT_STEPS, UNIT_TF, UNIT_AUDIT };
 /* Of the paper's arithmetic, four each: as textures, and as images, of which there are fewer (stepper_planes.glsl). */
 enum { UNIT_PLANES = 12, IMAGE_PLANES = 4 };
+enum { UNIT_PIECES = 10, IMAGE_PIECES = 3 };
 static const GLuint64 WAIT_NS = 1000000000ull; /* for a fence, at a time */
 enum { WAITS = 3600 };                         /* a pass over a large picture on a slow machine takes minutes */
 
@@ -34,6 +35,28 @@ typedef struct loop {
     int64_t open;    /* rays not known to be finished */
 } loop;
 
+static void bind_pieces(const tc_job *job, GLuint program)
+{
+    const tc_gl *gl = job->gl;
+    int half = 1;
+    while (2 * half < job->n_piece)
+        half *= 2;
+    tc_pass_fetch(gl, program, "tf_pieces", job->software ? IMAGE_PIECES : UNIT_PIECES, GL_RGBA32F,
+                  job->transfer->pieces.texture, job->software);
+    tc_pass_int(gl, program, "tf_piece_count", job->n_piece);
+    tc_pass_int(gl, program, "tf_piece_half", half);
+}
+
+static void bind_drift(const tc_job *job, GLuint program)
+{
+    const tc_gl *gl = job->gl;
+    const double *o = job->octave, *m = job->tf_most;
+    tc_pass_fetch(gl, program, "tf_cells", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
+    tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
+    gl->Uniform3f(gl->GetUniformLocation(program, "tf_octave"), (float)o[0], (float)o[1], (float)o[2]);
+    gl->Uniform3f(gl->GetUniformLocation(program, "tf_most"), (float)m[0], (float)m[1], (float)m[2]);
+}
+
 static void bind_transfer(const tc_job *job, GLuint program)
 {
     const tc_gl *gl = job->gl;
@@ -42,19 +65,23 @@ static void bind_transfer(const tc_job *job, GLuint program)
         tc_pass_texture(gl, program, "tf_table", UNIT_TF, GL_TEXTURE_3D, job->transfer->table);
         tc_pass_vec2(gl, program, "tf_texel[0]", job->texel[0][0], job->texel[0][1]);
         tc_pass_vec2(gl, program, "tf_texel[1]", job->texel[1][0], job->texel[1][1]);
-        tc_pass_vec2(gl, program, "tf_texel[2]", job->texel[2][0], job->texel[2][1]);
+        if (job->drift)
+            bind_drift(job, program);
+        else
+            tc_pass_vec2(gl, program, "tf_texel[2]", job->texel[2][0], job->texel[2][1]);
     } else if (job->integrator == TC_INTEGRATOR_EXACT) {
-        int half = 1;
-        while (2 * half < job->n_piece)
-            half *= 2;
-        tc_pass_fetch(gl, program, "tf_pieces", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
-        tc_pass_int(gl, program, "tf_piece_count", job->n_piece);
-        tc_pass_int(gl, program, "tf_piece_half", half);
+        bind_pieces(job, program);
     } else {
         tc_pass_fetch(gl, program, "tf_nodes", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
         tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
         tc_pass_float(gl, program, "tf_near", job->near);
         tc_pass_vec4(gl, program, "tf_mean", job->mean);
+        if (job->hard > 0) {
+            bind_pieces(job, program);
+            const double hard[4] = {job->hard, job->hard / job->hard_depth, job->hard / job->hard_slope,
+                                    job->hard / job->hard_slope * job->hard_relative};
+            tc_pass_vec4(gl, program, "tf_hard", hard);
+        }
         if (job->split > 0)
             tc_pass_float(gl, program, "tf_split", job->split);
     }
@@ -80,7 +107,8 @@ static tc_status get_programs(loop *l)
     char defines[512], alias[128];
     tc_job_defines(defines, sizeof defines, job);
     snprintf(alias, sizeof alias, "integrator.glsl=%s%s",
-             job->integrator == TC_INTEGRATOR_TABLE   ? "integrate_table.glsl"
+             job->drift                               ? "integrate_drift.glsl"
+             : job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl"
              : job->integrator == TC_INTEGRATOR_EXACT ? "integrate_exact.glsl"
                                                       : "integrate_integral.glsl",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
@@ -125,7 +153,7 @@ static void clear_state(const tc_job *job)
 {
     const tc_gl *gl = job->gl;
     /* An empty ray: no colour, no optical depth, or full transmittance. */
-    const GLfloat empty[4] = {0, 0, 0, job->integrator == TC_INTEGRATOR_TABLE ? 1.0f : 0.0f};
+    const GLfloat empty[4] = {0, 0, 0, tc_job_holds_depth(job) ? 0.0f : 1.0f};
     const GLuint none[4] = {0, 0, 0, 0};
     gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->set[0].framebuffer);
     gl->ClearBufferfv(GL_COLOR, 1, empty);

@@ -19,8 +19,14 @@ typedef struct tc_transfer_gpu {
     uint64_t serial; /* of the transfer function uploaded; 0: none */
     tc_integrator integrator;
     tc_table_format format;
-    int size[3]; /* of the table; nodes; pieces */
+    int size[3]; /* of the table; nodes */
+    int n_piece;
+    double rounding; /* of the integrals of extinction */
+    double hard;     /* as tc_job's: pieces stand beside the nodes */
+    int intervals;   /* of the means beside a table of floats, */
+    bool steps;      /* … some with a step in them */
     double scalar[2], length_max, span[2], mean[4];
+    double most[3]; /* largest r, g, b of the function, for a table of floats */
 } tc_transfer_gpu;
 
 /* Builds and uploads what changed; sets job's integrator, extend, map, texel and mean. Errors: TC_E_ARG, TC_E_MEMORY,

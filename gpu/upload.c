@@ -169,13 +169,22 @@ tc_status tc_gpu_running_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_
     return status;
 }
 
+tc_status tc_gpu_means_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_means *means, tc_error *err)
+{
+    tc_status status = upload_buffer(&out->nodes, gl, means->cell, 3 * (size_t)means->n + 2 * (size_t)means->n_step, 16,
+                                     GL_RGBA32F, "uploading a transfer function's means", err);
+    out->bytes += out->nodes.bytes;
+    if (status != TC_OK)
+        tc_gpu_transfer_finish(out, gl);
+    return status;
+}
+
 tc_status tc_gpu_pieces_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_pieces *pieces, tc_error *err)
 {
-    memset(out, 0, sizeof *out);
     _Static_assert(sizeof(tc_piece) == 48, "three texels a piece");
-    tc_status status = upload_buffer(&out->nodes, gl, pieces->piece, 3 * pieces->n, 16, GL_RGBA32F,
+    tc_status status = upload_buffer(&out->pieces, gl, pieces->piece, 3 * pieces->n, 16, GL_RGBA32F,
                                      "uploading the pieces of a transfer function", err);
-    out->bytes = out->nodes.bytes;
+    out->bytes += out->pieces.bytes;
     if (status != TC_OK)
         tc_gpu_transfer_finish(out, gl);
     return status;
@@ -186,5 +195,6 @@ void tc_gpu_transfer_finish(tc_gpu_transfer *transfer, const tc_gl *gl)
     if (transfer->table)
         gl->DeleteTextures(1, &transfer->table);
     finish_buffer(&transfer->nodes, gl);
+    finish_buffer(&transfer->pieces, gl);
     memset(transfer, 0, sizeof *transfer);
 }

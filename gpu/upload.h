@@ -4,6 +4,7 @@
 
 #include "gpu/gl.h"
 #include "gpu/pack_planes.h"
+#include "transfer_functions/means.h"
 #include "transfer_functions/pieces.h"
 #include "transfer_functions/running.h"
 #include "transfer_functions/table.h"
@@ -27,16 +28,20 @@ tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *p
                              tc_error *err);
 void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl);
 
-/* A transfer function's textures: `table` (3-D) or `nodes` (running integrals: two texels a node, point and
- * cumulative; pieces: three texels each). */
+/* A transfer function's textures: `table` (3-D), `nodes` (running integrals: two texels a node, point and cumulative;
+ * means: three an interval),
+ * `pieces` (three texels each). */
 typedef struct tc_gpu_transfer {
     GLuint table;
-    tc_texture_buffer nodes;
+    tc_texture_buffer nodes, pieces;
     size_t bytes;
 } tc_gpu_transfer;
 
 tc_status tc_gpu_table_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_table *table, tc_error *err);
+/* Beside what is there. */
 tc_status tc_gpu_pieces_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_pieces *pieces, tc_error *err);
+/* Into `nodes`, beside what is there. */
+tc_status tc_gpu_means_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_means *means, tc_error *err);
 tc_status tc_gpu_running_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_running *running, tc_error *err);
 void tc_gpu_transfer_finish(tc_gpu_transfer *transfer, const tc_gl *gl);
 

@@ -66,7 +66,76 @@ static void node_value(double out[4], const tc_transfer *tf, size_t piece, doubl
         out[c] = a[c] + 0.5 * (b[c] - a[c]);
 }
 
-tc_status tc_running_build(tc_running *out, const tc_transfer *tf, int n, const double span[2], tc_error *err)
+static const double INTERVALS_A_RISE = 64; /* over which the function may go from none to all */
+static const double NO_STEP = 1e-4;        /* a change that may stand as a step */
+static const double CLEAR_SHARE = 0.02;    /* of the span: where that much is clear it is to be clear exactly */
+static const double BESIDE = 1.5;          /* intervals beside a steep rise in which the nearest node may misjudge it */
+
+/* Does the function rise too steeply behind knot k for intervals of this width? most: its largest attenuation. */
+static bool is_steep(const tc_transfer *tf, size_t k, double interval, double most)
+{
+    const tc_knot *p = &tf->knot[k], *q = p + 1;
+    double change = fmax(fabs(q->r - p->r), fmax(fabs(q->g - p->g), fabs(q->b - p->b)));
+    if (most > 0)
+        change = fmax(change, fabs(q->a - p->a) / most);
+    return change > NO_STEP && change * INTERVALS_A_RISE * interval > q->s - p->s;
+}
+
+static double most_attenuation(const tc_transfer *tf)
+{
+    double most = 0;
+    for (size_t i = 0; i < tf->n; i++)
+        most = fmax(most, tf->knot[i].a);
+    return most;
+}
+
+double tc_running_steep(const tc_transfer *tf, int n, const double span[2])
+{
+    const double interval = (span[1] - span[0]) / (n - 1), most = most_attenuation(tf);
+    double share = 0, end = span[0];
+    for (size_t k = 0; k + 1 < tf->n; k++) {
+        double from = fmax(tf->knot[k].s - BESIDE * interval, end),
+               to = fmin(tf->knot[k + 1].s + BESIDE * interval, span[1]);
+        if (to > from && is_steep(tf, k, interval, most)) {
+            share += (to - from) / (span[1] - span[0]);
+            end = to;
+        }
+    }
+    return fmin(share, 1);
+}
+
+/* Takes away what nodes beside steep rises would say. */
+static void leave_out(tc_running *out, const tc_transfer *tf)
+{
+    const double interval = (out->span[1] - out->span[0]) / (out->n - 1), most = most_attenuation(tf);
+    for (size_t k = 0; k + 1 < tf->n; k++) {
+        if (!is_steep(tf, k, interval, most))
+            continue;
+        double from = (tf->knot[k].s - out->span[0]) / interval - BESIDE,
+               to = (tf->knot[k + 1].s - out->span[0]) / interval + BESIDE;
+        if (!(to >= 0) || !(from <= out->n - 1))
+            continue;
+        int last = (int)fmin(floor(to), out->n - 1);
+        for (int i = (int)fmax(ceil(from), 0); i <= last; i++)
+            out->point[4 * (size_t)i + 3] = TC_RUNNING_LEFT_OUT;
+    }
+}
+
+/* The share of the span in which the function absorbs nothing. */
+static double clear_share(const tc_transfer *tf, const double span[2])
+{
+    double share = 0;
+    for (size_t k = 0; k <= tf->n; k++) { /* the pieces that end at knot k */
+        const tc_knot *p = &tf->knot[k > 0 ? k - 1 : 0], *q = &tf->knot[k < tf->n ? k : tf->n - 1];
+        double from = fmax(k > 0 ? p->s : span[0], span[0]), to = fmin(k < tf->n ? q->s : span[1], span[1]);
+        if (p->a == 0 && q->a == 0 && to > from)
+            share += (to - from) / (span[1] - span[0]);
+    }
+    return share;
+}
+
+tc_status tc_running_build(tc_running *out, const tc_transfer *tf, int n, const double span[2], bool leave_steep,
+                           tc_error *err)
 {
     memset(out, 0, sizeof *out);
     if (!tf || n < 2)
@@ -114,18 +183,22 @@ tc_status tc_running_build(tc_running *out, const tc_transfer *tf, int n, const 
             exact[i][c] = sum[c];
         }
     }
-    for (int i = 0; i < n; i++)
-        for (int c = 0; c < 4; c++)
-            cumulative[4 * (size_t)i + (size_t)c] =
-                i == n - 1 ? 0.0f : (float)(exact[i][c] - sum[c] * ((double)i / (n - 1)));
-    free(exact);
+    bool clear = clear_share(tf, span) > CLEAR_SHARE;
     for (int c = 0; c < 4; c++)
-        out->mean[c] = pivot[c] + sum[c];
+        out->mean[c] = clear ? 0 : pivot[c] + sum[c];
+    for (int i = 0; i < n; i++)
+        for (int c = 0; c < 4; c++) {
+            double left = exact[i][c] + (pivot[c] - out->mean[c]) * ((double)i / (n - 1));
+            cumulative[4 * (size_t)i + (size_t)c] = i == n - 1 && !clear ? 0.0f : (float)left;
+        }
+    free(exact);
     out->n = n;
     out->point = point;
     out->cumulative = cumulative;
     out->span[0] = span[0];
     out->span[1] = span[1];
+    if (leave_steep)
+        leave_out(out, tf);
     out->ms = tc_now_ms() - start;
     return TC_OK;
 }

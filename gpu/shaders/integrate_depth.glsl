@@ -1,22 +1,35 @@
-// integrate_depth.glsl: what the integrators share whose state is colour and optical depth (struct Integral is theirs).
+// integrate_depth.glsl: what the integrators share that sum optical depth.
+// Depth is summed, not transmittance multiplied: exp() errs once per ray, not once per segment.
 
-#ifdef NAN_COLOR
-// A segment of length l of one colour: r, g, b and attenuation per unit distance. The scalar is not known behind it.
-void integral_add_constant(inout Integral i, vec4 color, float l)
-{
-    i.depth += color.a * l;
-    float transmittance = exp(-i.depth);
-    i.rgb += color.rgb * (i.transmittance - transmittance);
-    i.transmittance = transmittance;
-}
-#endif
+struct Gathered {
+    vec3 rgb;
+    float depth;         // optical depth so far
+    float transmittance; // exp(-depth)
+};
 
-float integral_transmittance(Integral i)
+Gathered gathered_begin(vec4 color)
 {
-    return i.transmittance;
+    return Gathered(color.rgb, color.a, exp(-color.a));
 }
 
-vec4 integral_end(Integral i)
+vec4 gathered_end(Gathered g)
 {
-    return vec4(i.rgb, i.depth);
+    return vec4(g.rgb, g.depth);
+}
+
+// A stretch of optical depth t of one colour.
+void gathered_add(inout Gathered g, vec3 color, float t)
+{
+    g.depth += t;
+    float transmittance = exp(-g.depth);
+    g.rgb += color * (g.transmittance - transmittance);
+    g.transmittance = transmittance;
+}
+
+// Half of what is left is absorbed, in this colour.
+void gathered_absorb_half(inout Gathered g, vec3 color)
+{
+    g.depth += 0.69314718;
+    g.transmittance *= 0.5;
+    g.rgb += g.transmittance * color;
 }

@@ -6,7 +6,17 @@
 //   C = T0 [ c (1 - e^-t) - (c_b - c_f) k(t) ],  k(t) = (1 + e^-t)/2 - (1 - e^-t)/t ≈ t^2 / (12 + 6 t + 2 t^2)
 // (the same to order t^3 and in the limit, within 0.008 between). TF_FIRST_ORDER leaves the drift out; TF_SPLIT cuts
 // segments of more optical depth than tf_split.
-// Optical depth is summed, not transmittance multiplied: exp() errs once per ray, not once per segment.
+//
+// TF_HARD: where the drift adds much it may not be linear, where x hardly changes the integrals' rounding grows, and a node
+// beside a step, of attenuation 1e30, knows no mean. Such a segment waits, the ray leaves the inner loop, and integral_settle integrates it piece by piece.
+
+#include "integrate_depth.glsl"
+#ifdef TF_HARD
+#include "pieces.glsl"
+// The largest drift; that over the largest optical depth; that over the largest quotient of a length and its difference of
+// x, by which the rounding of the integrals is multiplied.
+uniform vec4 tf_hard;
+#endif
 
 FETCH_BUFFER(2) tf_nodes; // two a node: (tau rgb, tau) there less the mean; its running integral over x
 uniform vec4 tf_mean;           // of (tau rgb, tau) over the nodes' span; taken out so that float keeps digits
@@ -30,10 +40,11 @@ struct TfSample {
 };
 
 struct Integral {
-    vec3 rgb;
-    float depth;         // optical depth so far
-    float transmittance; // exp(-depth)
+    Gathered sum;
     TfSample front;
+#ifdef TF_HARD
+    float wait_from, wait_to, wait_length; // of the segment that waits for integral_settle; none: length 0
+#endif
 };
 
 // The nearest node, and the integral from there on with the function's value at the node.
@@ -53,21 +64,27 @@ TfSample tf_sample_at(float x)
     return f;
 }
 
-TfSample tf_sample(float s)
+float tf_place(float s)
 {
 #ifdef NONFINITE
     s = isnan(s) ? 0.0 : s; // of a cell that contributes nothing
 #endif
-    return tf_sample_at(s * tf_map.x + tf_map.y);
+    return s * tf_map.x + tf_map.y;
+}
+
+TfSample tf_sample(float s)
+{
+    return tf_sample_at(tf_place(s));
 }
 
 Integral integral_begin(vec4 color, float s)
 {
     Integral i;
-    i.rgb = color.rgb;
-    i.depth = color.a;
-    i.transmittance = exp(-color.a);
+    i.sum = gathered_begin(color);
     i.front = tf_sample(s);
+#ifdef TF_HARD
+    i.wait_from = i.wait_to = i.wait_length = 0.0;
+#endif
     return i;
 }
 
@@ -77,8 +94,8 @@ void integral_enter(inout Integral i, float s)
     i.front = tf_sample(s);
 }
 
-// Mean of (tau rgb, tau) between two samples.
-vec4 tf_mean_between(TfSample front, TfSample back)
+// Mean of (tau rgb, tau) between two samples; by what the rounding of their integrals is multiplied.
+vec4 tf_mean_between(TfSample front, TfSample back, out float rounding)
 {
     float dx = back.x - front.x;
     bool near = abs(dx) < tf_near;
@@ -86,26 +103,39 @@ vec4 tf_mean_between(TfSample front, TfSample back)
     near = near || front.beyond * back.beyond > 0.0; // constant there
 #endif
     vec4 ends = tf_mean + 0.5 * (front.point + back.point);
-    vec4 between = tf_mean + (back.cumulative - front.cumulative) * (1.0 / (near ? 1.0 : dx));
+    rounding = 1.0 / (near ? 1.0 : dx);
+    vec4 between = tf_mean + (back.cumulative - front.cumulative) * rounding;
     return near ? ends : between;
 }
 
-// Adds a piece of optical depth t from the last sample to back.
-void integral_piece(inout Integral i, TfSample back, vec4 mean, float t)
+// Adds a piece of length l from the last sample to back. With TF_HARD nothing is added, and the piece waits, where its
+// colour is not known well enough. Selections, not branches: lanes of one group differ here.
+void integral_piece(inout Integral i, TfSample back, vec4 mean, float l, float rounding)
 {
-    i.depth += t;
-    float transmittance = exp(-i.depth);
+    float t = max(l * mean.a, 0.0);
     float inverse = mean.a > 1.0e-37 ? 1.0 / mean.a : 0.0;
-#ifdef TF_FIRST_ORDER
-    vec3 c = mean.rgb * ((i.transmittance - transmittance) * inverse);
-#else
-    float k = i.transmittance * t * t / (12.0 + t * (6.0 + 2.0 * t));
-    float e = (i.transmittance - transmittance) * inverse;
-    k *= inverse;
-    vec3 c = mean.rgb * (e + k * inverse * (back.point.a - i.front.point.a)) - k * (back.point.rgb - i.front.point.rgb);
+    vec3 color = mean.rgb * inverse, drift = vec3(0.0);
+#ifndef TF_FIRST_ORDER
+    float k = i.sum.transmittance * inverse * t * t / (12.0 + t * (6.0 + 2.0 * t));
+    drift = k * (color * (back.point.a - i.front.point.a) - (back.point.rgb - i.front.point.rgb));
 #endif
-    i.rgb += c;
-    i.transmittance = transmittance;
+#ifdef TF_HARD
+    float slope = mean.a > 0.0 ? abs(rounding) * tf_hard.z - mean.a * tf_hard.w : 0.0;
+    float most = max(max(abs(drift.r), abs(drift.g)), max(abs(drift.b), l * max(abs(mean.a) * tf_hard.y, slope)));
+    bool hard = !(most <= tf_hard.x), add = l > 0.0 && !hard;
+    t = add ? t : 0.0;
+    color = add ? color : vec3(0.0);
+    drift = add ? drift : vec3(0.0);
+    // Carried from round to round of the loop: of a value made anew in each, llvmpipe keeps, behind the loop, that of the
+    // round in which the last lane left.
+    i.wait_from = hard ? i.front.x : i.wait_from;
+    i.wait_to = hard ? back.x : i.wait_to;
+    i.wait_length = hard ? max(l, 0.0) : i.wait_length;
+#endif
+    i.sum.depth += t;
+    float transmittance = exp(-i.sum.depth);
+    i.sum.rgb += color * (i.sum.transmittance - transmittance) + drift;
+    i.sum.transmittance = transmittance;
     i.front = back;
 }
 
@@ -113,20 +143,65 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float t)
 void integral_add(inout Integral i, float s, float l)
 {
     TfSample back = tf_sample(s);
-    vec4 mean = tf_mean_between(i.front, back);
+    float rounding;
+    vec4 mean = tf_mean_between(i.front, back, rounding);
 #ifdef TF_SPLIT
     if (l * mean.a > tf_split) {
         float n = min(ceil(l * mean.a / tf_split), SPLIT_MOST), x = i.front.x, part = l / n;
         for (float k = 1.0; k < n; k += 1.0) {
             TfSample middle = tf_sample_at(mix(x, back.x, k / n));
-            vec4 share = tf_mean_between(i.front, middle);
-            integral_piece(i, middle, share, max(part * share.a, 0.0));
+            vec4 share = tf_mean_between(i.front, middle, rounding);
+            integral_piece(i, middle, share, part, rounding);
         }
-        mean = tf_mean_between(i.front, back);
+        mean = tf_mean_between(i.front, back, rounding);
         l = part;
     }
 #endif
-    integral_piece(i, back, mean, max(l * mean.a, 0.0));
+    integral_piece(i, back, mean, l, rounding);
 }
 
-#include "integrate_depth.glsl"
+#ifdef TF_HARD
+bool integral_waits(Integral i)
+{
+    return i.wait_length > 0.0;
+}
+
+void integral_settle(inout Integral i)
+{
+    if (i.wait_length > 0.0) {
+        Place p = place_at(i.wait_from);
+        pieces_add(i.sum, p, i.wait_to, i.wait_length);
+        i.wait_length = 0.0;
+    }
+}
+#endif
+
+// The ray ends where the scalar is s.
+void integral_stop(inout Integral i, float s)
+{
+#ifdef TF_HARD
+    vec3 color = place_at(tf_place(s)).front.rgb;
+#else
+    vec4 here = tf_mean + tf_sample(s).point;
+    vec3 color = here.a > 1.0e-37 ? here.rgb / here.a : vec3(0.0);
+#endif
+    gathered_absorb_half(i.sum, color);
+}
+
+#ifdef NAN_COLOR
+// A segment of length l of one colour: r, g, b and attenuation per unit distance. The scalar is not known behind it.
+void integral_add_constant(inout Integral i, vec4 color, float l)
+{
+    gathered_add(i.sum, color.rgb, color.a * l);
+}
+#endif
+
+float integral_transmittance(Integral i)
+{
+    return i.sum.transmittance;
+}
+
+vec4 integral_end(Integral i)
+{
+    return gathered_end(i.sum);
+}

@@ -27,36 +27,20 @@ void integral_enter(inout Integral i, float s)
     i.front = s;
 }
 
-#ifdef TF_TABLE_FLOAT
-// Opacity is interpolated linearly between the table's lengths; where cells are much shorter than the longest one that adds
-// up. Optical depth, however, is linear in length: with n steps of the table's length and the share f of one more,
-//   y = -log(1 - a) = (n + f) x - f (1 - f) x^2 / 2 + O(x^3)
-// for the optical depth x of one step. Solved for x by iteration, this gives (n + f) x. What to multiply a by: near
-// 1 + missing a for a small a, of which 1 - a would lose the digits.
-float length_correction(float a, float steps)
-{
-    float f = fract(steps), y = a < 1.0e-3 ? a * (1.0 + a * (0.5 + a * (1.0 / 3.0))) : -log(max(1.0 - a, 1.0e-6));
-    float missing = 0.5 * f * (1.0 - f) / max(steps * steps, 1.0e-12);
-    float depth = y + missing * y * y;
-    depth = y + missing * depth * depth;
-    depth = y + missing * depth * depth;
-    float opacity = depth < 0.01 ? depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0))) : 1.0 - exp(-depth);
-    return a > 0.0 ? min(opacity, 1.0) / a : 1.0;
-}
-#endif
-
 // A segment of length l (unit distances) over which the scalar runs linearly from the last one to s.
 void integral_add(inout Integral i, float s, float l)
 {
     vec3 at = tf_coordinate(i.front, s, l);
     vec4 c = textureLod(tf_table, at, 0.0);
     c *= l > 0.0 ? 1.0 : 0.0;
-#ifdef TF_TABLE_FLOAT
-    c *= length_correction(c.a, at.z * float(textureSize(tf_table, 0).z) - 0.5);
-#endif
     i.color.rgb += i.color.a * c.rgb;
     i.color.a *= 1.0 - c.a;
     i.front = s;
+}
+
+// As the paper: a ray that is stopped stays as it is.
+void integral_stop(inout Integral i, float s)
+{
 }
 
 #ifdef NAN_COLOR

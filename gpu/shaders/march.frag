@@ -47,8 +47,14 @@ layout(location = 0) out ivec4 out_walk;
 layout(location = 1) out vec4 out_color;
 layout(location = 2) out vec2 out_at;
 
+#ifdef TF_HARD
+#define INTEGRAL_GOES_ON !integral_waits(integral)
+#else
+#define INTEGRAL_GOES_ON true
+#endif
+
 // One step, and its share of the picture.
-void march_step(inout Walk w, Ray ray, inout Integral integral)
+void march_step(inout Walk w, Ray ray, inout Integral integral, inout float stop_scalar)
 {
 #ifdef AUDIT
     audit.broken += walk_holding_faces(w) == 2u ? 0u : 1u;
@@ -93,8 +99,10 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
     }
 #endif
     integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
-    if (integral_transmittance(integral) <= transmittance_stop)
-        w.cell = -2;
+    // Carried from round to round: what each round makes anew llvmpipe keeps, behind the loop, as the last lane left it.
+    bool stops = integral_transmittance(integral) <= transmittance_stop;
+    stop_scalar = stops ? segment.s1 : stop_scalar;
+    w.cell = stops ? -2 : w.cell;
 }
 
 void main()
@@ -120,13 +128,25 @@ void main()
         walk_look_ahead(w);
         Integral integral = integral_begin(color, w.s);
         int k = 0;
+        float stop_scalar = 0.0;
+        // Three loops in one another: what is rare waits in the outer ones until all lanes of a group need it or are done.
+#ifdef TF_HARD
+        do {
+#endif
         do {
             walk_exact(w, ray);
             do {
-                march_step(w, ray, integral);
+                march_step(w, ray, integral, stop_scalar);
                 k++;
-            } while (w.cell >= 0 && k < steps_per_pass && walk_fast(w, ray));
+            } while (w.cell >= 0 && k < steps_per_pass && INTEGRAL_GOES_ON && walk_fast(w, ray));
+        } while (w.cell >= 0 && k < steps_per_pass && INTEGRAL_GOES_ON);
+#ifdef TF_HARD
+        integral_settle(integral); // where this makes the ray opaque it ends after its next step
         } while (w.cell >= 0 && k < steps_per_pass);
+#endif
+        // What is left may be absorbed behind, or not: half of it is taken to be, in the colour that the ray is in.
+        if (w.cell == -2 && integral_transmittance(integral) <= transmittance_stop)
+            integral_stop(integral, stop_scalar);
 #ifdef COUNT
         steps += uint(k);
 #endif

@@ -6,11 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-bool tc_choice_asked(const tc_render_command *options)
-{
-    return options->error > 0 || options->frame_time > 0;
-}
-
 int tc_choice_make(tc_render_run *run, tc_renderer *renderer, tc_talk *talk)
 {
     const tc_render_command *options = run->options;
@@ -97,29 +92,4 @@ json_t *tc_choice_json(const tc_render_run *run)
     tc_json_measured(json, "best_error", choice->best_error);
     tc_json_measured(json, "best_frame_ms", choice->best_ms);
     return json;
-}
-
-bool tc_time_parse(void *field, const char *text, char *why)
-{
-    tc_render_command *out = field;
-    size_t length = strlen(text);
-    char number[64];
-    double value;
-    bool budget = length > 2 && !strcmp(text + length - 2, "ms");
-    if (length >= sizeof number)
-        return false;
-    snprintf(number, sizeof number, "%.*s", (int)(budget ? length - 2 : length), text);
-    if (!tc_parse_real(&value, number))
-        return false;
-    if (budget && !(value > 0)) {
-        snprintf(why, 64, "milliseconds above 0");
-        return false;
-    }
-    if (budget) {
-        out->frame_time = value;
-    } else {
-        out->source.time = value;
-        out->source.has_time = true;
-    }
-    return true;
 }

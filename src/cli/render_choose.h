@@ -4,8 +4,6 @@
 
 #include "cli/render_report.h"
 
-/* Was an error or a frame time asked for? */
-bool tc_choice_asked(const tc_render_command *options);
 /* Chooses run->render's knobs; fills run->choice and says why. -1 to go on, else the exit code of an error that was
  * printed. */
 int tc_choice_make(tc_render_run *run, tc_renderer *renderer, tc_talk *talk);
@@ -18,8 +16,5 @@ int tc_choice_judge(const tc_render_run *run, tc_talk *talk);
 
 /* "choice" of the statistics file and of the image; NULL where nothing was chosen. New reference. */
 json_t *tc_choice_json(const tc_render_run *run);
-
-/* --time T or --time Tms; field is the whole tc_render_command. */
-bool tc_time_parse(void *field, const char *text, char *why);
 
 #endif

@@ -2,7 +2,6 @@
 #include "cli/render_options.h"
 #include "cli/commands.h"
 #include "cli/json_out.h"
-#include "cli/render_choose.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -74,6 +73,32 @@ bool tc_size_parse(void *field, const char *text, char *why)
         return false;
     }
     *(tc_size *)field = (tc_size){width, height};
+    return true;
+}
+
+/* --time T or --time Tms; field is the whole tc_render_command. */
+static bool tc_time_parse(void *field, const char *text, char *why)
+{
+    tc_render_command *out = field;
+    size_t length = strlen(text);
+    char number[64];
+    double value;
+    bool budget = length > 2 && !strcmp(text + length - 2, "ms");
+    if (length >= sizeof number)
+        return false;
+    snprintf(number, sizeof number, "%.*s", (int)(budget ? length - 2 : length), text);
+    if (!tc_parse_real(&value, number))
+        return false;
+    if (budget && !(value > 0)) {
+        snprintf(why, 64, "milliseconds above 0");
+        return false;
+    }
+    if (budget) {
+        out->frame_time = value;
+    } else {
+        out->source.time = value;
+        out->source.has_time = true;
+    }
     return true;
 }
 
@@ -209,6 +234,11 @@ const tc_command tc_command_render = {
 };
 
 /* ------------------------------------------------------------------------------------------------------- checks */
+
+bool tc_choice_asked(const tc_render_command *options)
+{
+    return options->error > 0 || options->frame_time > 0;
+}
 
 static int tc_output_kind_check(const char *path, tc_talk *talk)
 {

@@ -64,6 +64,9 @@ typedef struct tc_render_command {
     bool no_cache;
 } tc_render_command;
 
+/* Was an error or a frame time asked for? */
+bool tc_choice_asked(const tc_render_command *options);
+
 /* Defaults, parsing, checks that need no mesh. -1 to go on, else the exit code. */
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv);
 

@@ -72,7 +72,7 @@ static void check_render(const tc_render_command *r)
     TC_FUZZ_CHECK(r->input && *r->input && r->output && *r->output);
     TC_FUZZ_CHECK(r->size.width >= 1 && r->size.height >= 1 && (long long)r->size.width * r->size.height <= 1 << 28);
     TC_FUZZ_CHECK(r->view_angle > 0 && r->view_angle < 180 && r->zoom > 0 && isfinite(r->zoom));
-    TC_FUZZ_CHECK(r->opacity_stop > 0 && r->opacity_stop <= 1 && r->repeat >= 1);
+    TC_FUZZ_CHECK(r->opacity_stop >= 0 && r->opacity_stop <= 1 && r->repeat >= 1);
     TC_FUZZ_CHECK(!r->has_range || r->range[0] < r->range[1]);
     TC_FUZZ_CHECK(r->gl && r->driver && r->unit_distance >= 0);
     for (int i = 0; r->background.there && i < 4; i++)

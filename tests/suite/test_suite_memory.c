@@ -2,6 +2,7 @@
  * For drivers that render with GL. */
 #include "suite.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -43,6 +44,11 @@ static void what_is_not_needed_is_uploaded(void **state)
     tc_image_destroy(&image);
     assert_true(table.gpu_bytes_table == 64 * 64 * 32 * 4); /* and no running integrals */
     assert_string_equal(table.integrator, "table");
+    options.table_format = TC_TABLE_16F;
+    image = suite_render(&table, mesh, tf, &camera, &options);
+    tc_image_destroy(&image);
+    double means = table.gpu_bytes_table - 64 * 64 * 32 * 8; /* and means: three texels an interval, a power of two */
+    assert_true(means >= 8192 * 48 && means <= 65536 * 48 && fmod(means, 8192 * 48) == 0);
     options = suite_options(SIZE, SIZE);
 
     double *value = calloc(report.n_tet, sizeof *value);

@@ -114,8 +114,8 @@ static void an_unknown_integrator_is_taken(void **state)
     const scene *s = *state;
     tc_renderer *renderer = make_renderer();
     tc_render_options options = s->options;
-    options.integrator = (tc_integrator)3;
-    expect_refusal(s, renderer, &options, (const char *const[]){"integrator 3", "1 (table)", "2 (integral)"});
+    options.integrator = (tc_integrator)4;
+    expect_refusal(s, renderer, &options, (const char *const[]){"integrator 4", "3 (exact)", "2 (integral)"});
     options.integrator = (tc_integrator)-1;
     expect_refusal(s, renderer, &options, (const char *const[]){"integrator -1", "0 (auto)", "2 (integral)"});
     tc_renderer_destroy(&renderer);

@@ -166,7 +166,8 @@ static GLuint get(tc_program_cache *cache, const char *vertex, const char *fragm
     char defines[512], alias[128];
     tc_job_defines(defines, sizeof defines, job);
     snprintf(alias, sizeof alias, "integrator.glsl=integrate_%s.glsl%s",
-             job->integrator == TC_INTEGRATOR_TABLE   ? "table"
+             job->drift                               ? "drift"
+             : job->integrator == TC_INTEGRATOR_TABLE ? "table"
              : job->integrator == TC_INTEGRATOR_EXACT ? "exact"
                                                       : "integral",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
@@ -240,6 +241,40 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
     tc_context_destroy(&context);
 }
 
+/* The paper's table needs no means of the function, that of the colour's drift needs them, and steps only where there
+ * are some. */
+static void a_table_fetches_what_the_other_kind_has(void **state)
+{
+    (void)state;
+    tc_context *context;
+    tc_program_cache *cache;
+    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
+        skip();
+    const tc_gl *gl = &context->gl;
+    for (int f = 0; f < N_FEATURES; f += 13) {
+        tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
+        tc_job job = job_of(f | TABLE, &frame);
+        char defines[512];
+        GLuint paper = get(cache, "screen.vert", "march.frag", &job);
+        expect_uniform(gl, paper, "tf_table", true, f);
+        expect_uniform(gl, paper, "tf_cells", false, f);
+        job.drift = true;
+        tc_job_defines(defines, sizeof defines, &job);
+        assert_int_equal(count(defines, "COLOR_HOLDS_DEPTH"), 1);
+        assert_int_equal(count(defines, "TF_STEPS"), 0);
+        GLuint drift = get(cache, "screen.vert", "march.frag", &job);
+        expect_uniform(gl, drift, "tf_table", true, f);
+        expect_uniform(gl, drift, "tf_cells", true, f);
+        expect_uniform(gl, drift, "tf_nodes", false, f);
+        job.steps = job.software = true;
+        tc_job_defines(defines, sizeof defines, &job);
+        assert_int_equal(count(defines, "TF_STEPS"), 1);
+        assert_int_not_equal(get(cache, "screen.vert", "march.frag", &job), drift);
+    }
+    tc_program_cache_destroy(&cache);
+    tc_context_destroy(&context);
+}
+
 /* Either stepper's program holds nothing of the other's. */
 static void the_paper_s_stepper_is_where_it_is_not_asked_for(void **state)
 {
@@ -300,7 +335,8 @@ static void marks_are_read_where_every_pixel_has_a_ray(void **state)
         assert_int_equal(count(defines, "#define SAMPLE_MASK\n"), masked);
     }
     for (const tc_shader_file *f = tc_shader_files; f->name; f++)
-        if (strcmp(f->name, "first_hit.frag") != 0 && (strstr(f->text, "SAMPLE_MASK") || strstr(f->text, "sample_mask")))
+        if (strcmp(f->name, "first_hit.frag") != 0 &&
+            (strstr(f->text, "SAMPLE_MASK") || strstr(f->text, "sample_mask")))
             fail_msg("%s knows of marks", f->name);
     tc_context *context;
     tc_program_cache *cache;
@@ -350,6 +386,8 @@ static void some_shader_does_not_compile(void **state)
                 job.integrator = TC_INTEGRATOR_EXACT;
             job.order = 1 + f % 2;
             job.split = f % 3 ? 0.5 : 0;
+            job.hard = f % 5 < 3 ? 1e-3 : 0;
+            job.dense = f % 2;
             job.nonfinite = job.nonfinite || way & 1;
             job.software = way & 2;
             get(cache, "screen.vert", "march.frag", &job);
@@ -382,6 +420,7 @@ int main(void)
         cmocka_unit_test(missing_files_are_not_named),
         cmocka_unit_test(compilers_errors_name_another_line),
         cmocka_unit_test(a_program_holds_what_its_scene_does_not_need),
+        cmocka_unit_test(a_table_fetches_what_the_other_kind_has),
         cmocka_unit_test(the_paper_s_stepper_is_where_it_is_not_asked_for),
         cmocka_unit_test(marks_are_read_where_every_pixel_has_a_ray),
         cmocka_unit_test(a_plain_scene_defines_anything),
