@@ -18,6 +18,7 @@ enum {
     AUTO_STEPS_SOFTWARE = 512, /* where a pass costs next to nothing: most rays end in the first */
     AUTO_STEPS_HARDWARE = 64,
     SOFTWARE_ROUNDS = 60000, /* of loops in one invocation, within llvmpipe's limit */
+    SPLIT_MOST = 256,        /* integrate_integral.glsl's */
     ROUNDS_BESIDE = 100,     /* a step's own, besides those of integrate_exact.glsl for each piece */
     AUTO_Z_SMALL = 4 /* for few steps a pass; Weiler et al. 2003, 5.2, found 14 best: 3 to 6 % more fragments here */
 };
@@ -155,10 +156,10 @@ static void choose_passes(tc_job *job, const tc_render_options *options)
     job->steps_per_pass = options->steps_per_pass > 0 ? options->steps_per_pass
                           : job->software             ? AUTO_STEPS_SOFTWARE
                                                       : AUTO_STEPS_HARDWARE;
-    if (job->software &&
-        job->integrator ==
-            TC_INTEGRATOR_EXACT) { /* a segment may cross every piece, and loops are cut after 65535 rounds in all */
-        int most = (int)(SOFTWARE_ROUNDS / ((double)job->n_piece + ROUNDS_BESIDE));
+    bool pieces = job->integrator == TC_INTEGRATOR_EXACT || job->hard > 0;
+    if (job->software && (pieces || job->split > 0)) {
+        /* A segment may cross every piece, or be cut into the most parts; loops are cut after 65535 rounds in all. */
+        int most = (int)(SOFTWARE_ROUNDS / ((pieces ? (double)job->n_piece : SPLIT_MOST) + ROUNDS_BESIDE));
         job->steps_per_pass = job->steps_per_pass < most ? job->steps_per_pass : most > 1 ? most : 1;
     }
     int every = options->z_update_every;
@@ -284,6 +285,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
             .length_max = mesh->report.longest_edge * r->scale * job.length_unit,
             .extent = &r->extent,
             .length_unit = job.length_unit,
+            .cell_data = job.cell_data,
             .threads = r->threads,
         };
         status = tc_transfer_gpu_ensure(&r->transfer, &job, &request, gl, stats, err);

@@ -11,6 +11,7 @@ typedef struct tc_transfer_gpu_request {
     double length_max; /* longest segment in unit distances */
     const tc_pack_extent *extent;
     double length_unit; /* mesh space → unit distances */
+    bool cell_data;
     int threads;
 } tc_transfer_gpu_request;
 

@@ -141,7 +141,7 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
     const char *reason = NULL;
     *out = (tc_transfer_plan){.integrator = options->integrator, .order = options->integral_order == 1 ? 1 : 2};
     find_span(out->span, request);
-    if (options->integrator == TC_INTEGRATOR_TABLE) {
+    if (options->integrator == TC_INTEGRATOR_TABLE && (range || options->table_format == TC_TABLE_8 || !few)) {
         if (range)
             memcpy(out->span, request->scalar, sizeof out->span); /* a table knows nothing outside */
         return TC_OK;
@@ -163,6 +163,8 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
     double steep = range && !beyond ? tc_running_steep(tf, out->nodes, out->span) : 0;
     if (!range) /* the value may lie on a step, where nodes hold the mean of both sides */
         reason = "the data have one value";
+    else if (request->cell_data && !as_it_is)
+        reason = "a cell has one value, and crosses no knot";
     else if (beyond)
         reason = "ranges are too wide or too narrow for nodes";
     else if (!as_it_is && steep > STEEP_SHARE)

@@ -16,6 +16,7 @@
 // The largest drift; that over the largest optical depth; that over the largest quotient of a length and its difference of
 // x, by which the rounding of the integrals is multiplied.
 uniform vec4 tf_hard;
+const float TF_LEFT_OUT = 1.0e29; // below the attenuation of nodes that know no mean
 #endif
 
 FETCH_BUFFER(2) tf_nodes; // two a node: (tau rgb, tau) there less the mean; its running integral over x
@@ -122,7 +123,7 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float l, float r
 #ifdef TF_HARD
     float slope = mean.a > 0.0 ? abs(rounding) * tf_hard.z - mean.a * tf_hard.w : 0.0;
     float most = max(max(abs(drift.r), abs(drift.g)), max(abs(drift.b), l * max(abs(mean.a) * tf_hard.y, slope)));
-    bool hard = !(most <= tf_hard.x), add = l > 0.0 && !hard;
+    bool hard = !(most <= tf_hard.x) || max(i.front.point.a, back.point.a) > TF_LEFT_OUT, add = l > 0.0 && !hard;
     t = add ? t : 0.0;
     color = add ? color : vec3(0.0);
     drift = add ? drift : vec3(0.0);

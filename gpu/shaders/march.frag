@@ -54,7 +54,7 @@ layout(location = 2) out vec2 out_at;
 #endif
 
 // One step, and its share of the picture.
-void march_step(inout Walk w, Ray ray, inout Integral integral, inout float stop_scalar)
+void march_step(inout Walk w, Ray ray, inout Integral integral, inout vec2 stop)
 {
 #ifdef AUDIT
     audit.broken += walk_holding_faces(w) == 2u ? 0u : 1u;
@@ -100,8 +100,8 @@ void march_step(inout Walk w, Ray ray, inout Integral integral, inout float stop
 #endif
     integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
     // Carried from round to round: what each round makes anew llvmpipe keeps, behind the loop, as the last lane left it.
-    bool stops = integral_transmittance(integral) <= transmittance_stop;
-    stop_scalar = stops ? segment.s1 : stop_scalar;
+    bool stops = w.cell >= 0 && integral_transmittance(integral) <= transmittance_stop;
+    stop = stops ? vec2(segment.s1, 1.0) : stop;
     w.cell = stops ? -2 : w.cell;
 }
 
@@ -128,7 +128,7 @@ void main()
         walk_look_ahead(w);
         Integral integral = integral_begin(color, w.s);
         int k = 0;
-        float stop_scalar = 0.0;
+        vec2 stop = vec2(0.0); // the scalar where the opacity stop ended the ray, and whether it did
         // Three loops in one another: what is rare waits in the outer ones until all lanes of a group need it or are done.
 #ifdef TF_HARD
         do {
@@ -136,7 +136,7 @@ void main()
         do {
             walk_exact(w, ray);
             do {
-                march_step(w, ray, integral, stop_scalar);
+                march_step(w, ray, integral, stop);
                 k++;
             } while (w.cell >= 0 && k < steps_per_pass && INTEGRAL_GOES_ON && walk_fast(w, ray));
         } while (w.cell >= 0 && k < steps_per_pass && INTEGRAL_GOES_ON);
@@ -145,8 +145,8 @@ void main()
         } while (w.cell >= 0 && k < steps_per_pass);
 #endif
         // What is left may be absorbed behind, or not: half of it is taken to be, in the colour that the ray is in.
-        if (w.cell == -2 && integral_transmittance(integral) <= transmittance_stop)
-            integral_stop(integral, stop_scalar);
+        if (stop.y > 0.0)
+            integral_stop(integral, stop.x);
 #ifdef COUNT
         steps += uint(k);
 #endif

@@ -49,28 +49,24 @@ Place place_at(float x)
     return p;
 }
 
-// Adds what a stretch of optical depth t gives whose mean weight is m (above).
-void piece_gather(inout Gathered g, inout Place p, vec4 back, float t, float m, float e)
+// Adds a stretch of optical depth t: shares 1 - M of what is left in the front's colour and M - E in the back's.
+void piece_gather(inout Gathered g, inout Place p, vec4 back, float t, float front_share, float back_share)
 {
+    g.rgb += g.transmittance * (p.front.rgb * max(front_share, 0.0) + back.rgb * max(back_share, 0.0));
     g.depth += t;
-    float after = exp(-g.depth), back_share = g.transmittance * max(m - e, 0.0);
-    g.rgb += p.front.rgb * max(g.transmittance - after - back_share, 0.0) + back.rgb * back_share;
-    g.transmittance = after;
+    g.transmittance = exp(-g.depth);
     p.front = back;
 }
 
-float piece_first(float t, float e) // m0
-{
-    return t < 0.01 ? 1.0 - t * (0.5 - t * (1.0 / 6.0 - t * (1.0 / 24.0))) : (1.0 - e) / t;
-}
-
-// Colour and extinction run linearly from front to back, over an optical depth t <= PIECE_THICK.
+// Colour and extinction run linearly from front to back, over an optical depth t <= PIECE_THICK. Nothing that is near 1 is
+// subtracted from 1, so that no digits are lost as t -> 0: with n = (1 - m0) / t, 1 - m0 = t n and m0 - E = t (1 - t n - n).
 void piece_thin(inout Gathered g, inout Place p, vec4 back, float l, float t)
 {
     float d = t - l * p.front.a, e = exp(-t), t2 = t * t;
     float m1 = 1.0 / 6.0 + t2 * (1.0 / 240.0 + t2 * (1.0 / 26880.0)), m2 = 1.0 / 60.0 + t2 * (1.0 / 3360.0);
-    float m = piece_first(t, e) + sqrt(e) * d * (m1 + d * (m2 + d * (1.0 / 840.0 + d * (1.0 / 15120.0))));
-    piece_gather(g, p, back, t, m, e);
+    float n = t < 0.25 ? 0.5 - t * (1.0 / 6.0 - t * (1.0 / 24.0 - t * (1.0 / 120.0 - t * (1.0 / 720.0)))) : (t - 1.0 + e) / t2;
+    float bend = sqrt(e) * d * (m1 + d * (m2 + d * (1.0 / 840.0 + d * (1.0 / 15120.0))));
+    piece_gather(g, p, back, t, t * n - bend, t * (1.0 - t * n - n) + bend);
 }
 
 // The same over any optical depth t from PIECE_THICK on, where extinction changes little: |d| <= PIECE_STRAIGHT.
@@ -79,7 +75,8 @@ void piece_straight(inout Gathered g, inout Place p, vec4 back, float l, float t
     float d = t - l * p.front.a, e = exp(-t), k = clamp(t, PIECE_THICK, 1.0e6), i = 1.0 / k;
     float m1 = (k - 2.0 + (k + 2.0) * e) * i * i * i;
     float m2 = (k * k - 6.0 * k + 12.0 - (k * k + 6.0 * k + 12.0) * e) * i * i * i * i * i;
-    piece_gather(g, p, back, t, (1.0 - e) * i + d * (m1 + d * m2), e);
+    float m = (1.0 - e) * i + d * (m1 + d * m2);
+    piece_gather(g, p, back, t, 1.0 - m, m - e);
 }
 
 #ifdef PIECES_DENSE
@@ -96,7 +93,7 @@ void piece_cut(inout Gathered g, inout Place p, float x, inout float rest, vec4 
     part *= f;
     float t = max(0.5 * part * (p.front.a + back.a), 0.0);
     end = f < 1.0 ? mix(p.x, end, f) : end;
-    if (t <= PIECE_THICK)
+    if (t <= 1.01 * PIECE_THICK) // the cut rounds
         piece_thin(g, p, back, part, t);
     else
         piece_straight(g, p, back, part, t);

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { TC_STUDY_FUNCTIONS = 5 };
 
@@ -196,6 +197,15 @@ static bool tc_study_row_seen(void *user, const tc_study_row *row)
     return true;
 }
 
+/* Size and time of a file, so that results of what it held before are not taken for its own. */
+static void tc_study_put_file(FILE *stream, const char *path)
+{
+    struct stat file;
+    if (path && stat(path, &file) == 0)
+        fprintf(stream, "file %lld %lld.%09ld\n", (long long)file.st_size, (long long)file.st_mtim.tv_sec,
+                file.st_mtim.tv_nsec);
+}
+
 /* What the results depend on besides the study's own options. */
 static int tc_study_request(char **out, const tc_study_command *o, tc_talk *talk)
 {
@@ -208,6 +218,9 @@ static int tc_study_request(char **out, const tc_study_command *o, tc_talk *talk
         return TC_EXIT_FAILED;
     }
     const tc_input_options *s = &o->source;
+    tc_study_put_file(stream, real);
+    tc_study_put_file(stream, o->color_map);
+    tc_study_put_file(stream, o->opacity);
     fprintf(stream, "input %s\nfield %s\nassociation %s\n",
             real       ? real
             : o->input ? o->input

@@ -146,6 +146,7 @@ static const char *take(tc_calibration *out, tc_candidate *copy, size_t n, const
     *out = (tc_calibration){.rays = (size_t)rays, .ms = ms, .ratio = ratio};
     if (view)
         out->view = strtoull(view, NULL, 16);
+    bool any = false;
     for (size_t i = 0; i < n; i++) {
         char name[TC_CANDIDATE_TEXT];
         tc_candidate_key(name, &copy[i]);
@@ -154,8 +155,9 @@ static const char *take(tc_calibration *out, tc_candidate *copy, size_t n, const
         copy[i].ms = out->view ? number_at(one, "ms") : NAN;
         if (isnan(copy[i].error))
             return "it lacks a setting";
+        any = any || isfinite(copy[i].error);
     }
-    return NULL;
+    return any ? NULL : "it is damaged";
 }
 
 bool tc_calibration_load(tc_calibration *out, tc_candidate *candidate, size_t n, const char *folder, const char *key,

@@ -163,12 +163,16 @@ static tc_status fail_unreachable(chooser *c, tc_error *err)
         return status;
     const tc_candidate *b = &c->candidate[best];
     tc_candidate_text(text, b, c->probe.fixed);
+    double ask = round_up(b->error / SAFETY);
+    char advice[48] = "";
+    if (ask < 1)
+        snprintf(advice, sizeof advice, "ask for %.3g or more, or ", ask);
     return tc_fail(
         err, TC_E_ACCURACY,
-        "no setting%s reaches an error of %.3g here: the least is %.3g (%s), %.1f ms a frame; ask for %.3g or "
-        "more, or take the driver 'reference', which works in double precision%s",
-        is_fixed(c->probe.fixed) ? " that keeps what was given" : "", c->request->error, b->error, text, b->ms,
-        round_up(b->error / SAFETY), is_fixed(c->probe.fixed) ? ", or leave more to be chosen" : "");
+        "no setting%s reaches an error of %.3g here: the least is %.3g (%s), %.1f ms a frame; %stake the driver "
+        "'reference', which works in double precision%s",
+        is_fixed(c->probe.fixed) ? " that keeps what was given" : "", c->request->error, b->error, text, b->ms, advice,
+        is_fixed(c->probe.fixed) ? ", or leave more to be chosen" : "");
 }
 
 /* The most accurate of the timed ones, if it is not the chosen one and slower: what accuracy would cost. */
