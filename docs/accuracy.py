@@ -305,7 +305,7 @@ def main():
               "folder)")
         return
     work += "-quick" if quick else ""
-    size, views, knob_views, frames, knob_frames = (48, 2, 1, 1, 1) if quick else (256, 8, 2, 5, 3)
+    size, views, knob_views, frames, knob_frames = (48, 2, 1, 1, 1) if quick else (256, 8, 2, 3, 2)
     out = work if quick else docs
     fresh(work, tetcast)
     os.makedirs(os.path.join(out, "images"), exist_ok=True)

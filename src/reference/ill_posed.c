@@ -9,7 +9,7 @@
 static const double SHIFT = 1.0 / 4194304;
 
 /* What the picture may not know: the reference is asked again with each of these moves. */
-enum { SIDES = 8, DATA = SIDES, APART = DATA + 2, TURNS = APART + 2, ROUNDED = TURNS + 3, MOVES_N = ROUNDED + 4 };
+enum { SIDES = 8, DATA = SIDES, APART = DATA + 2, TURNS = APART + 2, ROUNDED = TURNS + 3, MOVES_N = ROUNDED + 16 };
 
 /* Move k of a line; *data is what to add to every scalar.
  *   SIDES    the ray goes by SHIFT of the diagonal to the four sides, along u and v, and to the four corners between
