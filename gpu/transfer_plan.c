@@ -178,7 +178,7 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
     }
     if (!as_it_is && few && (steep > 0 || drifts(request, varied))) {
         out->hard = HARD_DRIFT;
-        out->hard_depth = varied ? HARD_DEPTH_VARIED : HARD_DEPTH;
+        out->hard_depth = varied || steep > 0 ? HARD_DEPTH_VARIED : HARD_DEPTH;
     }
     snprintf(why, capacity, "running integrals: %s",
              out->hard > 0
