@@ -182,8 +182,7 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
     }
     snprintf(why, capacity, "running integrals: %s",
              out->hard > 0
-                 ? "a step beside a knot or in dense cells is integrated piece by piece, all others cost no more "
-                   "than the smallest table"
+                 ? "segments beside steps and in dense cells are integrated piece by piece of the function"
                  : "a fifth of the error of a 128x128x256 table of half floats, a hundredth of one of 8 bits, and "
                    "faster on llvmpipe");
     return TC_OK;
