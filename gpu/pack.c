@@ -62,14 +62,15 @@ static int bin_of(float s)
     return bin < 0 ? 0 : bin >= TC_PACK_BINS ? TC_PACK_BINS - 1 : bin;
 }
 
-static void measure_cell(tc_pack_extent *out, const tc_pack *pack, const int32_t *tet, const float *cell_scalar)
+/* Returns the cell's weight in `held`, which is left as a sum; 0 where a value is not finite. */
+static double measure_cell(tc_pack_extent *out, const tc_pack *pack, const int32_t *tet, const float *cell_scalar)
 {
     float edge = 0, lo = INFINITY, hi = -INFINITY;
     for (int i = 0; i < 4; i++) {
         const float *p = pack->vertex + 4 * (size_t)tet[i];
         float s = cell_scalar ? *cell_scalar : p[3];
         if (isnan(s))
-            return; /* contributes nothing */
+            return 0; /* contributes nothing */
         lo = fminf(lo, s);
         hi = fmaxf(hi, s);
         for (int j = 0; j < i; j++) {
@@ -78,12 +79,16 @@ static void measure_cell(tc_pack_extent *out, const tc_pack *pack, const int32_t
             edge = fmaxf(edge, x * x + y * y + z * z);
         }
     }
+    double weight = edge;
     edge = sqrtf(edge);
     float edge_range = edge * (hi - lo);
     for (int b = bin_of(lo), last = bin_of(hi); b <= last; b++) {
         out->edge[b] = fmaxf(out->edge[b], edge);
         out->edge_range[b] = fmaxf(out->edge_range[b], edge_range);
+        double from = fmax(lo * TC_PACK_BINS, b), to = fmin(hi * TC_PACK_BINS, b + 1);
+        out->held[b] += weight * fmax(to - from, 0);
     }
+    return weight;
 }
 
 /* Writes an open face's corners, the least by place first: two open faces at one place, as where cells overlap, then give
@@ -151,8 +156,11 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err)
     }
     for (size_t i = 0; cell_data && i < mesh->n_tet; i++)
         out->cell_scalar[i] = map_scalar(mesh->scalar[i], out->scalar_lo, out->scalar_hi);
+    double weight = 0;
     for (size_t i = 0; i < mesh->n_tet; i++)
-        measure_cell(&out->extent, out, mesh->tet + 4 * i, cell_data ? &out->cell_scalar[i] : NULL);
+        weight += measure_cell(&out->extent, out, mesh->tet + 4 * i, cell_data ? &out->cell_scalar[i] : NULL);
+    for (int b = 0; b < TC_PACK_BINS; b++)
+        out->extent.held[b] = weight > 0 ? out->extent.held[b] / weight : 0;
     out->ms = tc_now_ms() - start;
     return TC_OK;
 }

@@ -8,9 +8,12 @@ enum { TC_PACK_BINS = 64, TC_PACK_CELL_INTS = 5, TC_PACK_VERTEX_FLOATS = 4, TC_P
 
 /* How large cells are, by the scalars they hold: what a transfer function needs to know of a mesh to tell whether any
  * segment is optically thick. Bin i: packed scalars i/TC_PACK_BINS … (i+1)/TC_PACK_BINS. Over the real cells that reach
- * into a bin: the longest edge, and the greatest longest edge × scalar range; in mesh space. */
+ * into a bin: the longest edge, and the greatest longest edge × scalar range; in mesh space. And how likely a ray's cell
+ * holds a scalar of the bin: the mean, over real cells by the square of their longest edge, of the share of the bin that
+ * they hold. */
 typedef struct tc_pack_extent {
     float edge[TC_PACK_BINS], edge_range[TC_PACK_BINS];
+    double held[TC_PACK_BINS];
 } tc_pack_extent;
 
 /* Positions are recentred on the bounding box and scaled by its half diagonal in double, then rounded to float once;

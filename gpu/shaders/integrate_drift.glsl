@@ -92,6 +92,17 @@ void integral_add(inout Integral i, float s, float l)
     i.front = back;
 }
 
+// A segment is added at once; no round need follow.
+bool integral_round(inout Integral i)
+{
+    return false;
+}
+
+bool integral_waits(Integral i)
+{
+    return false;
+}
+
 // The ray ends where the scalar is s.
 void integral_stop(inout Integral i, float s)
 {

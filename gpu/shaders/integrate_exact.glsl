@@ -31,16 +31,27 @@ void integral_enter(inout Integral i, float s)
     i.at = place_at(tf_place(s));
 }
 
-// A segment of length l (unit distances) over which the scalar runs linearly from the last one to s.
+// A segment of length l (unit distances) over which the scalar runs linearly from the last one to s. Its pieces are added by
+// the rounds that follow.
 void integral_add(inout Integral i, float s, float l)
 {
-    pieces_add(i.sum, i.at, tf_place(s), l);
+    piece_begin(i.at, tf_place(s), l);
+}
+
+bool integral_round(inout Integral i)
+{
+    return piece_round(i.sum, i.at);
+}
+
+bool integral_waits(Integral i)
+{
+    return false;
 }
 
 // The ray ends where the scalar is s.
 void integral_stop(inout Integral i, float s)
 {
-    gathered_absorb_half(i.sum, place_at(tf_place(s)).front.rgb);
+    gathered_absorb_half(i.sum, i.at.front.rgb);
 }
 
 #ifdef NAN_COLOR

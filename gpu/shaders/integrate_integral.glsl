@@ -161,17 +161,29 @@ void integral_add(inout Integral i, float s, float l)
     integral_piece(i, back, mean, l, rounding);
 }
 
-#ifdef TF_HARD
-bool integral_waits(Integral i)
+// A segment is added at once; no round need follow.
+bool integral_round(inout Integral i)
 {
-    return i.wait_length > 0.0;
+    return false;
 }
 
+bool integral_waits(Integral i)
+{
+#ifdef TF_HARD
+    return i.wait_length > 0.0;
+#else
+    return false;
+#endif
+}
+
+#ifdef TF_HARD
 void integral_settle(inout Integral i)
 {
     if (i.wait_length > 0.0) {
         Place p = place_at(i.wait_from);
-        pieces_add(i.sum, p, i.wait_to, i.wait_length);
+        piece_begin(p, i.wait_to, i.wait_length);
+        while (piece_round(i.sum, p))
+            ;
         i.wait_length = 0.0;
     }
 }

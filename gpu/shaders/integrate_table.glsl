@@ -38,6 +38,17 @@ void integral_add(inout Integral i, float s, float l)
     i.front = s;
 }
 
+// A segment is added at once; no round need follow.
+bool integral_round(inout Integral i)
+{
+    return false;
+}
+
+bool integral_waits(Integral i)
+{
+    return false;
+}
+
 // As the paper: a ray that is stopped stays as it is.
 void integral_stop(inout Integral i, float s)
 {

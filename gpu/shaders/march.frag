@@ -47,14 +47,8 @@ layout(location = 0) out ivec4 out_walk;
 layout(location = 1) out vec4 out_color;
 layout(location = 2) out vec2 out_at;
 
-#ifdef TF_HARD
-#define INTEGRAL_GOES_ON !integral_waits(integral)
-#else
-#define INTEGRAL_GOES_ON true
-#endif
-
-// One step, and its share of the picture.
-void march_step(inout Walk w, Ray ray, inout Integral integral, inout vec2 stop)
+// One step, and its share of the picture, which integral_round may still have to add.
+void march_step(inout Walk w, Ray ray, inout Integral integral)
 {
 #ifdef AUDIT
     audit.broken += walk_holding_faces(w) == 2u ? 0u : 1u;
@@ -99,9 +93,14 @@ void march_step(inout Walk w, Ray ray, inout Integral integral, inout vec2 stop)
     }
 #endif
     integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
+}
+
+// Ends the ray where it is opaque.
+void march_stop(inout Walk w, Integral integral, inout vec2 stop)
+{
     // Carried from round to round: what each round makes anew llvmpipe keeps, behind the loop, as the last lane left it.
     bool stops = w.cell >= 0 && integral_transmittance(integral) <= transmittance_stop;
-    stop = stops ? vec2(segment.s1, 1.0) : stop;
+    stop = stops ? vec2(w.s, 1.0) : stop;
     w.cell = stops ? -2 : w.cell;
 }
 
@@ -128,21 +127,28 @@ void main()
         walk_look_ahead(w);
         Integral integral = integral_begin(color, w.s);
         int k = 0;
+        bool open = false;     // the last step's segment is not all added yet
         vec2 stop = vec2(0.0); // the scalar where the opacity stop ended the ray, and whether it did
-        // Three loops in one another: what is rare waits in the outer ones until all lanes of a group need it or are done.
+#define GOES_ON (open || w.cell >= 0 && k < steps_per_pass)
+        // Loops in one another: what is rare waits in the outer ones until all lanes of a group need it or are done.
 #ifdef TF_HARD
         do {
 #endif
         do {
             walk_exact(w, ray);
             do {
-                march_step(w, ray, integral, stop);
-                k++;
-            } while (w.cell >= 0 && k < steps_per_pass && INTEGRAL_GOES_ON && walk_fast(w, ray));
-        } while (w.cell >= 0 && k < steps_per_pass && INTEGRAL_GOES_ON);
+                if (!open) {
+                    march_step(w, ray, integral);
+                    k++;
+                }
+                open = integral_round(integral);
+                if (!open)
+                    march_stop(w, integral, stop);
+            } while (GOES_ON && !integral_waits(integral) && walk_fast(w, ray));
+        } while (GOES_ON && !integral_waits(integral));
 #ifdef TF_HARD
         integral_settle(integral); // where this makes the ray opaque it ends after its next step
-        } while (w.cell >= 0 && k < steps_per_pass);
+        } while (GOES_ON);
 #endif
         // What is left may be absorbed behind, or not: half of it is taken to be, in the colour that the ray is in.
         if (stop.y > 0.0)

@@ -163,6 +163,8 @@ static const char fragment_text[] = "uniform sampler2D cases;\n"
                                     "void add(inout Integral i, float s, float l)\n"
                                     "{\n"
                                     "    integral_add(i, s, l);\n"
+                                    "    while (integral_round(i))\n"
+                                    "        ;\n"
                                     "#ifdef TF_HARD\n"
                                     "    integral_settle(i);\n"
                                     "#endif\n"
@@ -243,7 +245,7 @@ static void integrate(fixture *f, const tc_transfer *tf, tc_integrator integrato
     tc_frame frame = {0};
     tc_pack_extent extent;
     for (int b = 0; b < TC_PACK_BINS; b++)
-        extent.edge[b] = extent.edge_range[b] = (float)edge;
+        extent.edge[b] = extent.edge_range[b] = (float)edge, extent.held[b] = 1;
     const tc_render_options options = {.integrator = integrator};
     tc_transfer_gpu transfer = {0};
     tc_render_stats stats = {0};
