@@ -5,12 +5,14 @@
 #include "gpu/transfer_plan.h"
 #include "transfer_functions/drift.h"
 #include "transfer_functions/place.h"
+#include "transfer_functions/thin.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 static const double MAP_MOST = 1e30;                            /* x beyond is the same piece: pieces.glsl */
+static const double THIN = 2.5e-4;                              /* of a function: an eighth of 1/510 */
 static const double HARD_ROUNDING = 2e-4, HARD_RELATIVE = 1e-3; /* of optical depth */
 static const double NEAR_LEAST = 1.0 / 16384;                   /* smallest difference of x that cumulatives resolve */
 
@@ -139,7 +141,7 @@ static tc_status build_pieces(tc_transfer_gpu *t, const tc_transfer_gpu_request 
 {
     tc_pieces pieces;
     double start = tc_now_ms();
-    tc_status status = tc_pieces_build(&pieces, request->transfer, t->span, err);
+    tc_status status = tc_pieces_build(&pieces, request->pieces, t->span, err);
     if (status != TC_OK)
         return status;
     stats->ms_table = (stats->ms_table > 0 ? stats->ms_table : 0) + tc_now_ms() - start;
@@ -149,19 +151,46 @@ static tc_status build_pieces(tc_transfer_gpu *t, const tc_transfer_gpu_request 
     return status;
 }
 
-tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_transfer_gpu_request *request,
-                                 const tc_gl *gl, tc_render_stats *stats, tc_error *err)
+/* Where nobody asked for exact pieces, a cell should not pay for knots that no picture shows. */
+static tc_status ensure_thin(tc_transfer_gpu *t, tc_transfer_gpu_request *request, tc_error *err)
 {
+    const tc_transfer *tf = request->transfer;
+    request->pieces = tf;
+    if (request->options->integrator == TC_INTEGRATOR_EXACT || request->options->integrator == TC_INTEGRATOR_TABLE)
+        return TC_OK;
+    if (t->thin_serial != tf->serial) {
+        tc_transfer_destroy(&t->thin);
+        t->thin_serial = 0;
+        tc_status status = tc_transfer_thin(&t->thin, tf, THIN, err);
+        if (status != TC_OK)
+            return status;
+        t->thin_serial = tf->serial;
+    }
+    request->pieces = t->thin;
+    return TC_OK;
+}
+
+tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_transfer_gpu_request *asked, const tc_gl *gl,
+                                 tc_render_stats *stats, tc_error *err)
+{
+    tc_transfer_gpu_request thinned = *asked;
+    const tc_transfer_gpu_request *request = &thinned;
     const tc_render_options *options = request->options;
+    tc_status status = ensure_thin(t, &thinned, err);
+    if (status != TC_OK)
+        return status;
     tc_transfer_plan plan;
-    tc_status status = tc_transfer_plan_make(&plan, stats->integrator_why, sizeof stats->integrator_why, request, err);
+    status = tc_transfer_plan_make(&plan, stats->integrator_why, sizeof stats->integrator_why, request, err);
     if (status != TC_OK)
         return status;
     tc_transfer_gpu wanted = {.serial = request->transfer->serial,
                               .integrator = plan.integrator,
                               .scalar = {request->scalar[0], request->scalar[1]},
                               .span = {plan.span[0], plan.span[1]},
-                              .hard = plan.hard};
+                              .hard = plan.hard,
+                              .thin = t->thin,
+                              .thin_serial = t->thin_serial,
+                              .thinned = request->pieces == t->thin};
     if (wanted.integrator == TC_INTEGRATOR_TABLE) {
         static const int paper_size[3] = {128, 128, 256};
         for (int k = 0; k < 3; k++)
@@ -173,9 +202,10 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
     }
     bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
                 memcmp(t->size, wanted.size, sizeof t->size) == 0 && t->hard == wanted.hard &&
-                t->length_max == wanted.length_max && memcmp(t->scalar, wanted.scalar, sizeof t->scalar) == 0;
+                t->thinned == wanted.thinned && t->length_max == wanted.length_max &&
+                memcmp(t->scalar, wanted.scalar, sizeof t->scalar) == 0;
     if (!same) {
-        tc_transfer_gpu_finish(t, gl);
+        tc_gpu_transfer_finish(&t->textures, gl);
         *t = wanted;
         t->serial = 0;
         double start = tc_now_ms();
@@ -204,5 +234,6 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
 void tc_transfer_gpu_finish(tc_transfer_gpu *t, const tc_gl *gl)
 {
     tc_gpu_transfer_finish(&t->textures, gl);
-    t->serial = 0;
+    tc_transfer_destroy(&t->thin);
+    t->serial = t->thin_serial = 0;
 }

@@ -6,6 +6,7 @@
 
 typedef struct tc_transfer_gpu_request {
     const tc_transfer *transfer;
+    const tc_transfer *pieces; /* set by tc_transfer_gpu_ensure: whose linear pieces stand for it */
     const tc_render_options *options;
     double scalar[2];  /* what the packed scalars 0 and 1 stand for */
     double length_max; /* longest segment in unit distances */
@@ -17,7 +18,10 @@ typedef struct tc_transfer_gpu_request {
 
 typedef struct tc_transfer_gpu {
     tc_gpu_transfer textures;
-    uint64_t serial; /* of the transfer function uploaded; 0: none */
+    uint64_t serial;      /* of the transfer function uploaded; 0: none */
+    tc_transfer *thin;    /* a function of fewer knots that stands for it in pieces */
+    uint64_t thin_serial; /* of the function that it stands for */
+    bool thinned;         /* its pieces are uploaded */
     tc_integrator integrator;
     tc_table_format format;
     int size[3]; /* of the table; nodes */

@@ -13,18 +13,19 @@ static const double STEEP_SHARE = 0.02;                  /* of nodes that may le
 /* A segment is left to pieces where its drift adds more colour, or it is optically deeper: of what cells hide of a
  * function between their ends no sample tells. Over five meshes and three functions, two views each, the largest
  * error was 6e-4; with a depth of 0.8 it was 2e-3, at 5 % less time; over eight views 1.4e-3 (docs/accuracy.md). */
-static const double HARD_DRIFT = 5e-4, HARD_DEPTH = 0.5, HARD_DEPTH_VARIED = 0.1;
+static const double HARD_DRIFT = 5e-4, HARD_DEPTH = 0.5, HARD_DEPTH_WILD = 0.1;
 static const double MORE_VARIED = 20; /* of the shares */
 static const double VARIED = 3;       /* a colour that goes up and down more often than maps do hides more in a cell */
 static const double UNSPLIT_ERROR = 1e-3;                                /* a picture would err by more */
 static const double UNSPLIT_SHARE_WILD = 0.002, UNSPLIT_SHARE = 0.00125; /* as drifts() reckons */
 static const double DENSE_DEPTH = 0.99; /* of an edge, at the largest extinction: within 1 pieces.glsl cuts no piece */
-/* Pieces beat running integrals that leave segments to pieces up to so many knots crossed a step; and are hardly slower
- * than those that leave none, and far more exact. */
-static const double CROSSED_VARIED = 1, CROSSED_FEW = 0.25;
+/* Knots crossed by a segment up to which pieces are not slower than running integrals: where these leave nearly every
+ * segment to pieces (VARIED), or some (HARD); where none (FEW) pieces are up to a third slower, and more exact. */
+static const double CROSSED_VARIED = 1, CROSSED_HARD = 0.5, CROSSED_FEW = 0.25;
 /* Of a cell's range, by a segment: most lie askew, or cut a corner. 0.06 to 0.18 on five meshes. */
 static const double CROSSED_PART = 0.15;
-static const double DEPTH_MOST = 1000;  /* of an edge: running integrals round to 1e-7 of their whole */
+static const double BIN_MARGIN = 1e-3; /* of a bin */
+static const double DEPTH_MOST = 1000; /* of an edge: running integrals round to 1e-7 of their whole */
 /* Running integrals are for spans that nodes can divide, for a function that is not far narrower than the data, and for
  * lengths whose squares are floats; the rest is integrated piece by piece. */
 static const double WIDTH_LEAST = 1e-300;
@@ -71,15 +72,29 @@ static int choose_intervals(const tc_transfer *tf, const double span[2], double 
     return n;
 }
 
-/* The optical depth of the longest edge at the function's largest extinction: running integrals round to 1e-7 of it. */
+/* The optical depth of the longest edge at the function's largest extinction, among the scalars that its cell holds:
+ * running integrals round to 1e-7 of it. Bins are taken a little wider, as scalars are floats. */
 static double deepest(const tc_transfer_gpu_request *request)
 {
-    double most = 0, edge = 0;
-    for (size_t i = 0; i < request->transfer->n; i++)
-        most = fmax(most, request->transfer->knot[i].a);
-    for (int b = 0; b < TC_PACK_BINS; b++)
-        edge = fmax(edge, request->extent->edge[b]);
-    return most * edge * request->length_unit;
+    const tc_transfer *tf = request->transfer;
+    double range = request->scalar[1] - request->scalar[0], most = 0;
+    if (!isfinite(range))
+        return INFINITY;
+    for (int b = 0; b < TC_PACK_BINS; b++) {
+        double edge = request->extent->edge[b] * request->length_unit;
+        double lo = request->scalar[0] + range * (b - BIN_MARGIN) / TC_PACK_BINS, ends[2][4];
+        double hi = request->scalar[0] + range * (b + 1 + BIN_MARGIN) / TC_PACK_BINS;
+        if (!(edge > 0))
+            continue;
+        tc_transfer_evaluate(ends[0], tf, lo);
+        tc_transfer_evaluate(ends[1], tf, hi);
+        double a = fmax(ends[0][3], ends[1][3]);
+        for (size_t i = 0; i < tf->n; i++)
+            if (tf->knot[i].s >= lo && tf->knot[i].s <= hi)
+                a = fmax(a, tf->knot[i].a);
+        most = fmax(most, a * edge);
+    }
+    return most;
 }
 
 /* How far the colour goes up and down over the span: of the channel that does so most. */
@@ -100,7 +115,7 @@ static double color_variation(const tc_transfer *tf, const double span[2])
 /* How many knots a segment crosses, in the mean. */
 static double crossed_knots(const tc_transfer_gpu_request *request)
 {
-    const tc_transfer *tf = request->transfer;
+    const tc_transfer *tf = request->pieces;
     double range = request->scalar[1] - request->scalar[0], sum = 0;
     for (size_t i = 0; i < tf->n; i++) {
         double x = (tf->knot[i].s - request->scalar[0]) / range;
@@ -180,6 +195,7 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
     bool beyond = range && is_beyond_nodes(request, out->span);
     out->nodes = choose_intervals(tf, out->span, as_it_is || !few ? 0 : STEEP_SHARE) + 1;
     double steep = range && !beyond ? tc_running_steep(tf, out->nodes, out->span) : 0;
+    bool wild = varied || steep > 0, hard = !as_it_is && few && range && (steep > 0 || drifts(request, varied));
     if (!range) /* the value may lie on a step, where nodes hold the mean of both sides */
         reason = "the data have one value";
     else if (request->cell_data && !as_it_is)
@@ -190,16 +206,16 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
         reason = "the function is steep nearly everywhere";
     else if (!as_it_is && deepest(request) > DEPTH_MOST)
         reason = "cells are too dense for differences of integrals";
-    else if (!as_it_is && crossed_knots(request) <= (varied || steep > 0 ? CROSSED_VARIED : CROSSED_FEW))
+    else if (!as_it_is && crossed_knots(request) <= (varied ? CROSSED_VARIED : hard ? CROSSED_HARD : CROSSED_FEW))
         reason = "cells cross few of its knots";
     if (reason && few) {
         out->integrator = TC_INTEGRATOR_EXACT;
         snprintf(why, capacity, "piece by piece of the function: %s", reason);
         return TC_OK;
     }
-    if (!as_it_is && few && (steep > 0 || drifts(request, varied))) {
+    if (hard) {
         out->hard = HARD_DRIFT;
-        out->hard_depth = varied || steep > 0 ? HARD_DEPTH_VARIED : HARD_DEPTH;
+        out->hard_depth = wild ? HARD_DEPTH_WILD : HARD_DEPTH;
     }
     snprintf(why, capacity, "running integrals: %s",
              out->hard > 0
