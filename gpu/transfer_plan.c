@@ -206,7 +206,10 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
         reason = "the function is steep nearly everywhere";
     else if (!as_it_is && deepest(request) > DEPTH_MOST)
         reason = "cells are too dense for differences of integrals";
-    else if (!as_it_is && crossed_knots(request) <= (varied ? CROSSED_VARIED : hard ? CROSSED_HARD : CROSSED_FEW))
+    else if (options->integrator == TC_INTEGRATOR_AUTO && !as_it_is &&
+             crossed_knots(request) <= (varied ? CROSSED_VARIED
+                                        : hard ? CROSSED_HARD
+                                               : CROSSED_FEW))
         reason = "cells cross few of its knots";
     if (reason && few) {
         out->integrator = TC_INTEGRATOR_EXACT;

@@ -106,10 +106,9 @@ static void raise_group(chooser *c, size_t k, double before)
 static tc_status check(bool *held, chooser *c, size_t k, double error, tc_error *err)
 {
     tc_candidate *one = &c->candidate[k];
-    size_t best = tc_candidate_best(c->candidate, c->n);
     tc_probe_check found;
-    const tc_candidate *finest = c->candidate[best].group != one->group || one->stop < 1 ? &c->candidate[best] : NULL;
-    tc_status status = tc_probe_picture(&found, one, finest, &c->probe, err);
+    bool finest = one->integrator == TC_INTEGRATOR_EXACT && one->stop >= 1;
+    tc_status status = tc_probe_picture(&found, one, !finest, &c->probe, err);
     if (status != TC_OK)
         return status;
     tc_choose_report *r = c->report;
@@ -170,9 +169,12 @@ static tc_status fail_unreachable(chooser *c, tc_error *err)
     return tc_fail(
         err, TC_E_ACCURACY,
         "no setting%s reaches an error of %.3g here: the least is %.3g (%s), %.1f ms a frame; %stake the driver "
-        "'reference', which works in double precision%s",
+        "'reference', which works in double precision%s%s",
         is_fixed(c->probe.fixed) ? " that keeps what was given" : "", c->request->error, b->error, text, b->ms, advice,
-        is_fixed(c->probe.fixed) ? ", or leave more to be chosen" : "");
+        is_fixed(c->probe.fixed) ? ", or leave more to be chosen" : "",
+        c->probe.fixed->samples == TC_SAMPLES_ADAPTIVE
+            ? ", or 16 rays in every pixel, as adaptively chosen ones miss some"
+            : "");
 }
 
 /* The most accurate of the timed ones, if it is not the chosen one and slower: what accuracy would cost. */
@@ -387,7 +389,7 @@ static tc_status choose_reference(chooser *c, tc_error *err)
     tc_choose_report *r = c->report;
     tc_probe_check found;
     tc_candidate only = {.integrator = TC_INTEGRATOR_EXACT, .stop = 1};
-    tc_status status = tc_probe_picture(&found, &only, NULL, &c->probe, err);
+    tc_status status = tc_probe_picture(&found, &only, false, &c->probe, err);
     if (status != TC_OK)
         return status;
     double asked = c->request->error, budget = c->request->frame_ms, max = found.error;

@@ -281,7 +281,22 @@ static tc_status check_suspects(tc_probe_check *out, const tc_image *image, cons
     return TC_OK;
 }
 
-tc_status tc_probe_picture(tc_probe_check *out, const tc_candidate *candidate, const tc_candidate *finest, tc_probe *p,
+/* The picture in which nothing is chosen but exactness: whatever the caller fixed of the integrator. NULL where the
+ * function has too many knots for it. */
+static tc_status render_finest(tc_probe *p, tc_error *err)
+{
+    static const tc_candidate exact = {.integrator = TC_INTEGRATOR_EXACT, .stop = 1};
+    tc_render_options o = *p->fixed;
+    tc_render_stats stats;
+    o.count = o.audit = false;
+    o.integral_order = 0;
+    o.integral_split = 0;
+    o.state_format = TC_STATE_32F;
+    tc_status status = p->finest ? TC_OK : render(&p->finest, &stats, &exact, p->camera, &o, p, err);
+    return status == TC_E_ARG ? TC_OK : status;
+}
+
+tc_status tc_probe_picture(tc_probe_check *out, const tc_candidate *candidate, bool suspects, tc_probe *p,
                            tc_error *err)
 {
     tc_render_options o = *p->fixed;
@@ -293,8 +308,8 @@ tc_status tc_probe_picture(tc_probe_check *out, const tc_candidate *candidate, c
     memset(out, 0, sizeof *out);
     o.count = o.audit = false;
     tc_status status = tc_render_resolve(&unit, &rays, p->mesh, p->tf, p->camera, &o, err);
-    if (status == TC_OK && finest && !p->finest)
-        status = render(&p->finest, &stats, finest, p->camera, &o, p, err);
+    if (status == TC_OK && suspects)
+        status = render_finest(p, err);
     for (; frames < CHECK_FRAMES && status == TC_OK; frames++) {
         if (frames > 0 && ms[frames - 1] > ROUNDS_MS / CHECK_FRAMES)
             break;
@@ -308,7 +323,7 @@ tc_status tc_probe_picture(tc_probe_check *out, const tc_candidate *candidate, c
         status = tc_truth_compare(&out->verify, NULL, p->truth, image, err);
     out->verify.rays_lost = 0; /* tc_render fails where one is */
     out->error = out->verify.max_abs_error;
-    if (status == TC_OK && finest)
+    if (status == TC_OK && suspects && p->finest)
         status = check_suspects(out, image, &rays, unit, p, err);
     if (status == TC_OK)
         out->ms = median(ms, frames);

@@ -19,7 +19,7 @@ typedef struct tc_probe {
     /* made when first needed; tc_probe_finish frees it */
     tc_reference *reference;
     tc_truth *truth;  /* of those pixels */
-    tc_image *finest; /* the picture of the most accurate setting */
+    tc_image *finest; /* the picture of the exact integrator */
 } tc_probe;
 
 void tc_probe_finish(tc_probe *probe);
@@ -42,9 +42,9 @@ typedef struct tc_probe_check {
     double ms;             /* median of three frames; of one where that takes more than a second */
 } tc_probe_check;
 
-/* The picture of a candidate: an error over probe->verify of its pixels, and over those that differ most, of all, from
- * the picture of `finest` (NULL: none). Errors: as tc_render and tc_verify. */
-tc_status tc_probe_picture(tc_probe_check *out, const tc_candidate *candidate, const tc_candidate *finest,
-                           tc_probe *probe, tc_error *err);
+/* The picture of a candidate: an error over probe->verify of its pixels, and with `suspects` over those of all that
+ * differ most from the exact integrator's picture. Errors: as tc_render and tc_verify. */
+tc_status tc_probe_picture(tc_probe_check *out, const tc_candidate *candidate, bool suspects, tc_probe *probe,
+                           tc_error *err);
 
 #endif
