@@ -26,6 +26,7 @@ struct tc_truth {
     double unit, range; /* range: width of the scalars' */
     int edge, threads;  /* edge x edge rays a pixel */
     bool drawn, no_judge;
+    double doubt;
     size_t n, n_all;
     uint32_t *pixel; /* [n] */
     double *color;   /* [n][4] */
@@ -136,9 +137,9 @@ static difference difference_of(const tc_truth *t, const tc_image *image, size_t
 }
 
 /* Would the pixel not count if it is ill-posed? */
-static bool doubtful(const difference *d)
+static bool doubtful(const tc_truth *t, const difference *d)
 {
-    return d->worst > TC_ILL_POSED_MOVE && d->finite;
+    return d->worst > t->doubt && d->finite;
 }
 
 /* A loop over pixels that may run out of memory. */
@@ -159,7 +160,7 @@ static void walk_range(void *context, size_t begin, size_t end, int worker)
             status = trace_pixel(t, k, worker);
         } else if (t->known[k] == NOT_ASKED) {
             difference d = difference_of(t, w->image, k);
-            if (doubtful(&d))
+            if (doubtful(t, &d))
                 status = judge_pixel(t, k, worker);
         }
         if (status != TC_OK) {
@@ -232,6 +233,7 @@ tc_status tc_truth_create(tc_truth **out, const tc_truth_view *view, tc_error *e
                     .threads = view->threads,
                     .drawn = !view->pixel,
                     .no_judge = view->no_judge,
+                    .doubt = view->doubt > 0 ? view->doubt : TC_ILL_POSED_MOVE,
                     .n = n,
                     .n_all = all,
                     .pixel = tc_alloc(n, sizeof *t->pixel),
@@ -283,7 +285,7 @@ const double *tc_truth_color(const tc_truth *truth, size_t k)
 /* An error that counts? Judging has been done. */
 static bool counts(const tc_truth *t, size_t k, const difference *d)
 {
-    return t->known[k] != ILL_POSED || !doubtful(d);
+    return t->known[k] != ILL_POSED || !doubtful(t, d);
 }
 
 /* The rank-th smallest (from 0) of all errors that count. The bits of doubles that are not negative are ordered like

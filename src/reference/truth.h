@@ -19,6 +19,7 @@ typedef struct tc_truth_view {
                       places of an s x s grid in it; 0: 1, through the middle. TC_SAMPLES_ADAPTIVE: 16, since which pixels
                       of a picture got 4 or 16 is not known here: the error of having had only 4 is in the result */
     bool no_judge; /* no pixel is asked whether it is ill-posed: all count */
+    double doubt;  /* pixels that err by more are asked; 0: 1/1020 */
     int threads;   /* 0: all cores */
     const tc_log *log; /* progress only, of tc_truth_create and of judging in tc_truth_compare; may be NULL */
 } tc_truth_view;
@@ -36,10 +37,10 @@ const uint32_t *tc_truth_pixels(const tc_truth *truth);
 const double *tc_truth_color(const tc_truth *truth, size_t k);
 
 /* Compares a picture with the truth, as tc_reference_verify says. Whether a pixel is ill-posed is asked of the
- * reference the first time that a picture errs there by more than 1/1020, and then known. A pixel of several rays is
- * ill-posed when the mean over its rays of the largest change of each exceeds 1/1020. errors  of the picture's size, or
- * NULL: gets the error image (tc_verify_image) unseen_share is NAN where the pixels were listed by the caller, for it
- * holds for a random draw, unless they are all. Not for two threads at a time. Errors: TC_E_ARG (sizes differ),
+ * reference the first time that a picture errs there by more than view->doubt, and then known. A pixel of several rays
+ * is ill-posed when the mean over its rays of the largest change of each exceeds 1/1020. errors  of the picture's size,
+ * or NULL: gets the error image (tc_verify_image) unseen_share is NAN where the pixels were listed by the caller, for
+ * it holds for a random draw, unless they are all. Not for two threads at a time. Errors: TC_E_ARG (sizes differ),
  * TC_E_MEMORY. Cost: O(n) without the judging, 10 to 20 ns a channel; judging takes up to 19 rays for each ray of the
  * pixel. */
 tc_status tc_truth_compare(tc_verify_result *out, tc_image *errors, tc_truth *truth, const tc_image *image,

@@ -12,10 +12,12 @@
 #include <string.h>
 
 enum { CHANNELS = 4, AREA_RAYS = 64 }; /* a pixel, 8 x 8: twice as fine as the finest sampling, at none of its places */
-static const double ASKED = 1.0 / 1020; /* ill-posed are only rays that err by more (reference.h) */
+/* Rays that err by more are asked whether they are ill-posed. Of those that err by more than DOUBT, far below any
+ * bound, as many as decide which one errs most. */
+static const double ASKED = 1.0 / 1020, DOUBT = 1e-5;
 /* Asking whether a ray is ill-posed takes 19 rays. Of a picture that errs everywhere only the worst share is asked:
  * more would change neither its largest error nor its percentiles to speak of. */
-enum { ASKED_LEAST = 256, ASKED_SHARE = 100 };
+enum { ASKED_LEAST = 256, ASKED_SHARE = 100, ASKED_NEXT = 8 };
 
 typedef enum known { UNKNOWN = 0, WELL_POSED, ILL_POSED } known;
 
@@ -82,6 +84,7 @@ static tc_status make_truth(tc_truth **out, const tc_judge *j, const uint32_t *p
                                 .seed = v->seed,
                                 .samples = rays,
                                 .no_judge = !ask,
+                                .doubt = DOUBT,
                                 .threads = v->threads,
                                 .log = v->log};
     return tc_truth_create(out, &view, err);
@@ -179,6 +182,28 @@ static void reduce(tc_study_row *row, double *error, size_t n)
     row->p999_error = error[n - 1 - (n - 1) / 1000];
 }
 
+/* Asks the worst of pixel [n], sorted; n_asked gets how many. */
+static tc_status ask_worst(size_t *n_asked, tc_judge *j, const ranked *pixel, size_t n, const tc_image *image,
+                           tc_error *err)
+{
+    const size_t most = n / ASKED_SHARE > ASKED_LEAST ? n / ASKED_SHARE : ASKED_LEAST;
+    size_t begin = 0, end = 0;
+    while (end < n && end < most && pixel[end].error > ASKED)
+        end++;
+    for (bool settled = false; !settled;) {
+        tc_status status = ask(j, pixel + begin, end - begin, image, err);
+        if (status != TC_OK)
+            return status;
+        for (; begin < end; begin++)
+            settled = settled || j->known[pixel[begin].index] == WELL_POSED;
+        while (end < n && end < most && end - begin < ASKED_NEXT && pixel[end].error > DOUBT)
+            end++;
+        settled = settled || end == begin;
+    }
+    *n_asked = begin;
+    return TC_OK;
+}
+
 static tc_status judge(tc_study_row *row, tc_judge *j, const tc_image *image, bool area, tc_error *err)
 {
     tc_truth **truth = area ? &j->area : &j->ray;
@@ -206,11 +231,8 @@ static tc_status judge(tc_study_row *row, tc_judge *j, const tc_image *image, bo
     snprintf(row->truth, sizeof row->truth, "%s", area ? "area" : "ray");
     row->pixels = (int64_t)n;
     if (!area) {
-        const size_t most = n / ASKED_SHARE > ASKED_LEAST ? n / ASKED_SHARE : ASKED_LEAST;
         qsort(pixel, n, sizeof *pixel, worst_first);
-        while (n_asked < n && n_asked < most && pixel[n_asked].error > ASKED)
-            n_asked++;
-        status = ask(j, pixel, n_asked, image, err);
+        status = ask_worst(&n_asked, j, pixel, n, image, err);
         if (status != TC_OK)
             goto done;
         row->ill_posed = 0;

@@ -217,6 +217,24 @@ static void pixel_with_ill_posed_rays_counts_as_an_error(void **state)
     assert_int_equal(v.ill_posed, 0);
     NEAR(v.max_abs_error, 0.01, 1e-6);
     tc_truth_destroy(&truth);
+    /* Errors that are too small to be asked about are, where it is doubted that they are errors. */
+    for (int k = 0; k < 4 * N; k++) /* the colours that were found, and 4e-4 more */
+        if (k / 4 % W == 0 || k / 4 % W == 8)
+            s.pixels[k] -= s.pixels[4 * (k / 4 / W * W + 4) + 3] > 0 ? 0.0096f : 0;
+    for (int doubted = 0; doubted < 2; doubted++) {
+        const tc_truth_view small = {.reference = s.reference,
+                                     .tf = &s.tf,
+                                     .unit = 1,
+                                     .rays = &s.rays,
+                                     .n = N,
+                                     .samples = 4,
+                                     .doubt = doubted ? 1e-4 : 0};
+        assert_int_equal(tc_truth_create(&truth, &small, NULL), TC_OK);
+        v = compare(truth, NULL, &s.image);
+        assert_int_equal(v.ill_posed, doubted ? wrong : 0);
+        NEAR(doubted ? v.worst_error_ill_posed : v.max_abs_error, 4e-4, 3e-6);
+        tc_truth_destroy(&truth);
+    }
     scene_finish(&s);
 }
 
