@@ -2,28 +2,13 @@
 #ifndef TC_TESTS_UNIT_SEGMENT_TRUTH_H
 #define TC_TESTS_UNIT_SEGMENT_TRUTH_H
 
-#include "transfer_functions/transfer.h"
+#include "transfer_make.h"
 
 #include <math.h>
 
 static const tc_knot smooth[] = {{0, 0.2, 0.3, 0.7, 0}, {0.5, 0.9, 0.8, 0.9, 0.4}, {1, 0.7, 0.1, 0.1, 1}};
 static const tc_knot steps[] = {{-1, 1, 0, 0, 0},   {0.2, 1, 1, 0, 0.5}, {0.2, 0, 1, 0, 3}, {0.61, 0, 1, 1, 2},
                                 {0.61, 1, 1, 1, 0}, {0.9, 0, 0, 1, 0},   {0.9, 1, 0, 0, 9}, {2, 0, 0, 1, 1}};
-
-static tc_transfer *make(const tc_knot *knot, size_t n)
-{
-    tc_transfer *tf = NULL;
-    tc_error err = {0};
-    if (tc_transfer_from_knots(&tf, knot, n, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return tf;
-}
-
-static double random01(uint64_t *state)
-{
-    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (double)(*state >> 11) * 0x1p-53;
-}
 
 /* The truth: between knots the optical depth in closed form, the emission by adaptive Simpson. */
 typedef struct stretch {

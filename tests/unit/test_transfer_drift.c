@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "segment_truth.h"
+#include "table_lookup.h"
 #include "transfer_functions/drift.h"
 #include "transfer_functions/means.h"
 
@@ -52,12 +53,6 @@ static void finish(fixture *f)
     tc_transfer_destroy(&f->tf);
 }
 
-static const float *entry(const tc_table *table, int front, int back, int k)
-{
-    return (const float *)table->rgba +
-           4 * ((size_t)front + (size_t)table->size[0] * ((size_t)back + (size_t)table->size[1] * (size_t)k));
-}
-
 /* tf_cell of integrate_drift.glsl, in float as there. */
 static void cell_at(float around[4], float sum[4], float rest[4], const tc_means *m, float x)
 {
@@ -97,21 +92,7 @@ static double place_of_length(const tc_table *table, double length)
 static double drift_at(const tc_table *table, double front, double back, double length, int c)
 {
     const double place[3] = {front * (table->size[0] - 1), back * (table->size[1] - 1), place_of_length(table, length)};
-    int low[3];
-    double t[3], sum = 0;
-    for (int i = 0; i < 3; i++) {
-        low[i] = (int)floor(place[i]);
-        low[i] = low[i] > table->size[i] - 2 ? table->size[i] - 2 : low[i];
-        t[i] = place[i] - low[i];
-    }
-    for (int corner = 0; corner < 8; corner++) {
-        const int d[3] = {corner & 1, corner >> 1 & 1, corner >> 2};
-        double weight = 1;
-        for (int i = 0; i < 3; i++)
-            weight *= d[i] ? t[i] : 1 - t[i];
-        sum += weight * entry(table, low[0] + d[0], low[1] + d[1], low[2] + d[2])[c];
-    }
-    return sum;
+    return between_entries(table, place, c);
 }
 
 /* integral_add of integrate_drift.glsl: colour and optical depth of a segment. */
@@ -370,13 +351,6 @@ static void axes_of_different_size_are_mixed_up(void **state)
     }
 }
 
-static float half_value(uint16_t h)
-{
-    const int exponent = h >> 10 & 31, mantissa = h & 1023;
-    const float v = exponent == 0 ? ldexpf((float)mantissa, -24) : ldexpf((float)(mantissa + 1024), exponent - 25);
-    return h & 0x8000 ? -v : v;
-}
-
 static void halves_are_not_the_nearest(void **state)
 {
     (void)state;
@@ -413,19 +387,12 @@ static void threads_change_the_table(void **state)
 static void extreme_functions_give_no_numbers(void **state)
 {
     (void)state;
-    const tc_knot huge[] = {{0, 1, 0, 0, 0}, {0.5, 1, 1, 1, 1e300}, {0.5, 1, 1, 1, 0}, {1, 0, 0, 1, 1e5}};
-    const tc_knot none[] = {{0, 1, 1, 1, 0}, {1, 1, 1, 1, 0}};
-    const tc_knot one[] = {{0.3, 1, 0.5, 0.25, 2}};
-    const struct {
-        const tc_knot *knot;
-        size_t n;
-    } function[] = {{huge, 4}, {none, 2}, {one, 1}};
-    for (size_t i = 0; i < 3; i++) {
-        fixture f = build(function[i].knot, function[i].n, 16, 7);
+    for (size_t i = 0; i < EXTREMES; i++) {
+        fixture f = build(extremes[i].knot, extremes[i].n, 16, 7);
         uint64_t seed = 3;
         for (size_t k = 0; k < f.table.bytes / 4; k++) {
             const float v = ((const float *)f.table.rgba)[k];
-            if (!(fabsf(v) <= (i == 0 ? 2 : i == 1 ? 0 : 1e-6f)))
+            if (!(fabsf(v) <= (i == HUGE_EXTINCTION ? 2 : i == NO_EXTINCTION ? 0 : 1e-6f)))
                 fail_msg("function %zu: %g", i, (double)v);
         }
         for (int n = 0; n < 2000; n++) {
@@ -442,10 +409,7 @@ static void many_knots_fail(void **state)
 {
     (void)state;
     enum { MANY = 10000 };
-    tc_knot *knot = malloc(MANY * sizeof *knot);
-    uint64_t seed = 11;
-    for (int i = 0; i < MANY; i++)
-        knot[i] = (tc_knot){i / (MANY - 1.0), random01(&seed), random01(&seed), random01(&seed), random01(&seed)};
+    tc_knot *knot = random_knots(MANY);
     fixture f = build(knot, MANY, 16, 1);
     double worst[2];
     random_errors(worst, &f, 0, 20, false);

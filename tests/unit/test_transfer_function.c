@@ -6,26 +6,11 @@
 #include <cmocka.h>
 
 #include "transfer_functions/running.h"
-#include "transfer_functions/transfer.h"
+#include "transfer_make.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static tc_transfer *make(const tc_knot *knot, size_t n)
-{
-    tc_transfer *tf = NULL;
-    tc_error err = {0};
-    if (tc_transfer_from_knots(&tf, knot, n, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return tf;
-}
-
-static double random01(uint64_t *state)
-{
-    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (double)(*state >> 11) * 0x1p-53;
-}
 
 static void evaluation_takes_wrong_side_of_a_step(void **state)
 {

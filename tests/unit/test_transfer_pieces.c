@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "transfer_functions/pieces.h"
+#include "transfer_make.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,15 +20,6 @@ static tc_pieces build(const tc_transfer *tf, double lo, double hi)
     return pieces;
 }
 
-static tc_transfer *function(const tc_knot *knot, size_t n)
-{
-    tc_transfer *tf;
-    tc_error err = {0};
-    if (tc_transfer_from_knots(&tf, knot, n, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return tf;
-}
-
 /* Every x lies in one piece, pieces join, and within them the value is the function's. */
 static void a_piece_has_another_value_than_the_function(void **state)
 {
@@ -36,7 +28,7 @@ static void a_piece_has_another_value_than_the_function(void **state)
                                    {7, 1, 1, 1, 9}};
     static const double spans[][2] = {{-3, 7}, {-2, 1}, {-10, 20}, {-1, 2}, {3, 4}};
     (void)state;
-    tc_transfer *tf = function(knot, sizeof knot / sizeof *knot);
+    tc_transfer *tf = make(knot, sizeof knot / sizeof *knot);
     for (size_t i = 0; i < sizeof spans / sizeof *spans; i++) {
         const double *span = spans[i];
         tc_pieces p = build(tf, span[0], span[1]);
@@ -68,7 +60,7 @@ static void a_narrow_piece_has_an_infinite_slope(void **state)
     static const tc_knot knot[] = {
         {0, 0, 0, 0, 0}, {0.5, 0, 0, 0, 1e30}, {0.5 + 1e-12, 1, 1, 1, 1e300}, {1, 1, 1, 1, 0}};
     (void)state;
-    tc_transfer *tf = function(knot, sizeof knot / sizeof *knot);
+    tc_transfer *tf = make(knot, sizeof knot / sizeof *knot);
     tc_pieces p = build(tf, 0, 1);
     assert_int_equal(p.n, 4);
     for (size_t k = 0; k < p.n; k++)
@@ -83,7 +75,7 @@ static void a_piece_near_zero_has_an_infinite_slope(void **state)
 {
     static const tc_knot knot[] = {{0, 0, 0, 0, 0.5}, {1e-20, 1, 1, 1, 1e20}, {2e-20, 0, 0, 0, 0}, {1, 0, 0, 0, 1e20}};
     (void)state;
-    tc_transfer *tf = function(knot, 4);
+    tc_transfer *tf = make(knot, 4);
     tc_pieces p = build(tf, 0, 1);
     assert_int_equal(p.n, 5);
     for (size_t k = 0; k < p.n; k++)
@@ -101,7 +93,7 @@ static void a_piece_near_zero_has_an_infinite_slope(void **state)
 static void one_knot_makes_no_pieces(void **state)
 {
     (void)state;
-    tc_transfer *tf = function((const tc_knot[]){{5, 0.25, 0.5, 1, 3}}, 1);
+    tc_transfer *tf = make((const tc_knot[]){{5, 0.25, 0.5, 1, 3}}, 1);
     tc_pieces p = build(tf, 0, 1);
     assert_int_equal(p.n, 2);
     for (size_t k = 0; k < p.n; k++)

@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "segment_truth.h"
-#include "transfer_functions/table.h"
+#include "table_lookup.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,12 +23,6 @@ static tc_table build(const tc_transfer *tf, tc_table_options options)
     if (tc_table_build(&table, tf, &options, &err) != TC_OK)
         fail_msg("%s", err.text);
     return table;
-}
-
-static const float *entry(const tc_table *table, int front, int back, int k)
-{
-    return (const float *)table->rgba +
-           4 * ((size_t)front + (size_t)table->size[0] * ((size_t)back + (size_t)table->size[1] * (size_t)k));
 }
 
 /* Largest difference of slice k's entries (every `stride`-th) and the truth. */
@@ -48,13 +42,6 @@ static double slice_error(const tc_table *table, const tc_transfer *tf, int k, i
                 worst = fmax(worst, fabs(entry(table, f, b, k)[c] - want[c]));
         }
     return worst;
-}
-
-static float half_value(uint16_t h)
-{
-    const int exponent = h >> 10;
-    const int mantissa = h & 1023;
-    return exponent == 0 ? ldexpf((float)mantissa, -24) : ldexpf((float)(mantissa + 1024), exponent - 25);
 }
 
 /* ------------------------------------------------------------------------------------------------------ tests */
@@ -112,21 +99,7 @@ static double lookup(const tc_table *table, double front, double back, double le
     const double place[3] = {(front - table->span[0]) / (table->span[1] - table->span[0]) * (table->size[0] - 1),
                              (back - table->span[0]) / (table->span[1] - table->span[0]) * (table->size[1] - 1),
                              length / table->length_max * (table->size[2] - 1)};
-    int low[3];
-    double t[3], sum = 0;
-    for (int i = 0; i < 3; i++) {
-        low[i] = (int)floor(place[i]);
-        low[i] = low[i] > table->size[i] - 2 ? table->size[i] - 2 : low[i];
-        t[i] = place[i] - low[i];
-    }
-    for (int corner = 0; corner < 8; corner++) {
-        const int d[3] = {corner & 1, corner >> 1 & 1, corner >> 2};
-        double weight = 1;
-        for (int i = 0; i < 3; i++)
-            weight *= d[i] ? t[i] : 1 - t[i];
-        sum += weight * entry(table, low[0] + d[0], low[1] + d[1], low[2] + d[2])[c];
-    }
-    return sum;
+    return between_entries(table, place, c);
 }
 
 static void constant_extinction_misses_beers_law(void **state)
@@ -248,6 +221,7 @@ static void formats_are_not_rounded_to_nearest(void **state)
         const float v = ((const float *)full.rgba)[i];
         assert_true(fabsf((float)((const uint8_t *)bytes.rgba)[i] - v * 255) <= 0.5001f);
         const uint16_t h = ((const uint16_t *)half.rgba)[i];
+        assert_true(h < 0x8000); /* not even -0 */
         const float got = half_value(h), up = half_value((uint16_t)(h + 1)),
                     down = h > 0 ? half_value((uint16_t)(h - 1)) : 0;
         assert_true(fabsf(got - v) <= fabsf(up - v) && (h == 0 || fabsf(got - v) <= fabsf(down - v)));
@@ -294,15 +268,8 @@ static void threads_change_the_table(void **state)
 static void extreme_functions_give_no_numbers(void **state)
 {
     (void)state;
-    const tc_knot huge[] = {{0, 1, 0, 0, 0}, {0.5, 1, 1, 1, 1e300}, {0.5, 1, 1, 1, 0}, {1, 0, 0, 1, 1e5}};
-    const tc_knot none[] = {{0, 1, 1, 1, 0}, {1, 1, 1, 1, 0}};
-    const tc_knot one[] = {{0.3, 1, 0.5, 0.25, 2}};
-    const struct {
-        const tc_knot *knot;
-        size_t n;
-    } function[] = {{huge, 4}, {none, 2}, {one, 1}};
-    for (size_t i = 0; i < 3; i++) {
-        tc_transfer *tf = make(function[i].knot, function[i].n);
+    for (size_t i = 0; i < EXTREMES; i++) {
+        tc_transfer *tf = make(extremes[i].knot, extremes[i].n);
         tc_table table = build(tf, (tc_table_options){.size = {16, 16, 8}, .length_max = 7, .format = TC_TABLE_32F});
         for (int k = 0; k < 8; k++)
             for (int b = 0; b < 16; b++)
@@ -310,12 +277,12 @@ static void extreme_functions_give_no_numbers(void **state)
                     for (int c = 0; c < 4; c++) {
                         const float v = entry(&table, f, b, k)[c];
                         assert_true(isfinite(v) && v >= 0 && v <= 1);
-                        if (i == 1)
+                        if (i == NO_EXTINCTION)
                             assert_true(v == 0);
-                        if (i == 2)
+                        if (i == ONE_KNOT)
                             assert_float_equal(v, (c < 3 ? 1.0 / (1 << c) : 1) * (1 - exp(-2.0 * k)), 1e-6);
                     }
-        if (i == 0)
+        if (i == HUGE_EXTINCTION)
             assert_true(entry(&table, 0, 15, 7)[3] == 1);
         tc_table_finish(&table);
         tc_transfer_destroy(&tf);
@@ -326,10 +293,7 @@ static void ten_thousand_knots_fail(void **state)
 {
     (void)state;
     enum { MANY = 10000 };
-    tc_knot *knot = malloc(MANY * sizeof *knot);
-    uint64_t seed = 11;
-    for (int i = 0; i < MANY; i++)
-        knot[i] = (tc_knot){i / (MANY - 1.0), random01(&seed), random01(&seed), random01(&seed), random01(&seed)};
+    tc_knot *knot = random_knots(MANY);
     tc_transfer *tf = make(knot, MANY);
     tc_table table = build(tf, (tc_table_options){.size = {16, 16, 3}, .length_max = 1, .format = TC_TABLE_32F});
     assert_true(slice_error(&table, tf, 1, 5, false) < 2e-6);

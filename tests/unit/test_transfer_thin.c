@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "transfer_functions/thin.h"
+#include "transfer_make.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,15 +18,6 @@ static tc_transfer *thin(const tc_transfer *tf, double tolerance)
     if (tc_transfer_thin(&out, tf, tolerance, &err) != TC_OK)
         fail_msg("%s", err.text);
     return out;
-}
-
-static tc_transfer *function(const tc_knot *knot, size_t n)
-{
-    tc_transfer *tf;
-    tc_error err = {0};
-    if (tc_transfer_from_knots(&tf, knot, n, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return tf;
 }
 
 /* Largest difference of a channel, and largest share of attenuation, at knots and between them. */
@@ -71,7 +63,7 @@ static void knots_on_a_line_stay(void **state)
     static const tc_knot line[] = {
         {0, 0, 1, 0.5, 0}, {1, 0.25, 0.75, 0.5, 2}, {3, 0.75, 0.25, 0.5, 6}, {4, 1, 0, 0.5, 8}};
     (void)state;
-    tc_transfer *tf = function(line, 4), *two = thin(tf, 1e-12);
+    tc_transfer *tf = make(line, 4), *two = thin(tf, 1e-12);
     assert_int_equal(two->n, 2);
     assert_true(two->knot[1].a == 8);
     tc_transfer_destroy(&two);
@@ -84,7 +76,7 @@ static void a_step_or_a_spike_goes(void **state)
                                    {2, 0, 0, 0, 2},      {2, 1, 0, 0, 2},      {3, 1, 0, 0, 2},
                                    {3.0001, 1, 0, 0, 9}, {3.0002, 1, 0, 0, 2}, {9, 1, 0, 0, 2}};
     (void)state;
-    tc_transfer *tf = function(knot, sizeof knot / sizeof *knot), *same = thin(tf, 0.01);
+    tc_transfer *tf = make(knot, sizeof knot / sizeof *knot), *same = thin(tf, 0.01);
     assert_int_equal(same->n, tf->n);
     tc_transfer_destroy(&same);
     tc_transfer_destroy(&tf);
@@ -96,7 +88,7 @@ static void thin_attenuation_turns_into_none(void **state)
     static const tc_knot knot[] = {
         {0, 0, 0, 0, 0}, {1, 0, 0, 0, 1e-9}, {2, 0, 0, 0, 0}, {3, 0, 0, 0, 0}, {4, 0, 0, 0, 0}};
     (void)state;
-    tc_transfer *tf = function(knot, sizeof knot / sizeof *knot), *fewer = thin(tf, 0.1);
+    tc_transfer *tf = make(knot, sizeof knot / sizeof *knot), *fewer = thin(tf, 0.1);
     assert_int_equal(fewer->n, 4); /* one of the clear ones is on a line */
     assert_true(fewer->knot[1].a == 1e-9);
     tc_transfer_destroy(&fewer);
@@ -107,7 +99,7 @@ static void bad_arguments_or_single_knots_fail_otherwise(void **state)
 {
     static const tc_knot knot[] = {{1, 0.5, 0, 0, 3}};
     (void)state;
-    tc_transfer *tf = function(knot, 1), *out = thin(tf, 1);
+    tc_transfer *tf = make(knot, 1), *out = thin(tf, 1);
     assert_int_equal(out->n, tf->n);
     tc_transfer_destroy(&out);
     tc_error err = {0};
