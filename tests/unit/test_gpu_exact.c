@@ -6,12 +6,12 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "gpu/context.h"
 #include "gpu/job.h"
 #include "gpu/pass.h"
-#include "gpu/program.h"
 #include "gpu/transfer_gpu.h"
 #include "reference/reference.h"
+#include "tests/common/gl_program.h"
+#include "transfer_make.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -72,90 +72,47 @@ static const named_function functions[] = {
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
-enum { CONTEXTS = 2 };
-static const char *const context_names[CONTEXTS] = {"osmesa", "egl"};
-
 typedef struct fixture {
     tc_context *context;
-    GLuint cases, whole, parts, framebuffer, array;
+    GLuint cases, drawn[2]; /* drawn: whole, and in two parts */
+    gl_target target;
     float (*in)[4];                 /* [HEIGHT * WIDTH]: scalars at both ends, length, the share of the first part */
     float (*out)[4], (*out_cut)[4]; /* r, g, b, optical depth: whole, and in two parts */
 } fixture;
 
 static GLuint make_texture(const tc_gl *gl)
 {
-    GLuint texture;
-    gl->GenTextures(1, &texture);
-    gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, HEIGHT, 0, GL_RGBA, GL_FLOAT, NULL);
-    return texture;
+    return gl_texture(gl, GL_RGBA32F, GL_RGBA, GL_FLOAT, WIDTH, HEIGHT);
 }
 
 static bool open_fixture(fixture *f, const char *name)
 {
-    static const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    tc_error err = {0};
     memset(f, 0, sizeof *f);
-    if (tc_context_create(&f->context, name, NULL, &err) != TC_OK) {
-        printf("    %s: %s\n", name, err.text);
+    if (!gl_open(&f->context, name))
         return false;
-    }
     const tc_gl *gl = &f->context->gl;
     f->in = calloc(HEIGHT * WIDTH, sizeof *f->in);
     f->out = calloc(HEIGHT * WIDTH, sizeof *f->out);
     f->out_cut = calloc(HEIGHT * WIDTH, sizeof *f->out_cut);
     assert_true(f->in && f->out && f->out_cut);
     f->cases = make_texture(gl);
-    f->whole = make_texture(gl);
-    f->parts = make_texture(gl);
-    gl->GenFramebuffers(1, &f->framebuffer);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, f->framebuffer);
-    gl->FramebufferTexture(GL_FRAMEBUFFER, buffers[0], f->whole, 0);
-    gl->FramebufferTexture(GL_FRAMEBUFFER, buffers[1], f->parts, 0);
-    gl->DrawBuffers(2, buffers);
-    gl->GenVertexArrays(1, &f->array);
-    gl->BindVertexArray(f->array);
-    gl->Viewport(0, 0, WIDTH, HEIGHT);
-    gl->Disable(GL_DEPTH_TEST);
+    f->drawn[0] = make_texture(gl);
+    f->drawn[1] = make_texture(gl);
+    f->target = gl_target_of(gl, f->drawn, 2, WIDTH, HEIGHT);
     return true;
 }
 
 static void close_fixture(fixture *f)
 {
     const tc_gl *gl = &f->context->gl;
-    const GLuint textures[] = {f->cases, f->whole, f->parts};
-    gl->DeleteFramebuffers(1, &f->framebuffer);
-    gl->DeleteTextures(3, textures);
-    gl->DeleteVertexArrays(1, &f->array);
+    gl_target_finish(&f->target, gl);
+    gl->DeleteTextures(1, &f->cases);
+    gl->DeleteTextures(2, f->drawn);
     free(f->in);
     free(f->out);
     free(f->out_cut);
     tc_context_destroy(&f->context);
 }
-
-static GLuint compile(const tc_gl *gl, GLenum stage, const char *text)
-{
-    GLuint shader = gl->CreateShader(stage);
-    gl->ShaderSource(shader, 1, &text, NULL);
-    gl->CompileShader(shader);
-    GLint ok = 0;
-    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (!ok) {
-        char log[2048] = "";
-        gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-        fail_msg("%s", log);
-    }
-    return shader;
-}
-
-static const char vertex_text[] =
-    "#version 430 core\n"
-    "void main()\n"
-    "{\n"
-    "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
-    "}\n";
 
 static const char fragment_text[] = "uniform sampler2D cases;\n"
                                     "layout(location = 0) out vec4 whole;\n"
@@ -184,28 +141,11 @@ static const char fragment_text[] = "uniform sampler2D cases;\n"
 /* The integrator's file behind fetch.glsl, and the text above. */
 static GLuint make_program(const tc_gl *gl, const char *file, const char *defines)
 {
-    char *head, *body;
-    tc_error err = {0};
-    if (tc_program_text(&head, "fetch.glsl", defines, NULL, &err) != TC_OK ||
-        tc_program_text(&body, file, "", NULL, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    size_t n = strlen(head) + strlen(body) + sizeof fragment_text;
-    char *text = malloc(n);
-    assert_non_null(text);
-    snprintf(text, n, "%s%s%s", head, strchr(body, '\n') + 1, fragment_text); /* without the version's line */
-    GLuint v = compile(gl, GL_VERTEX_SHADER, vertex_text), f = compile(gl, GL_FRAGMENT_SHADER, text);
-    GLuint program = gl->CreateProgram();
-    gl->AttachShader(program, v);
-    gl->AttachShader(program, f);
-    gl->LinkProgram(program);
-    GLint ok = 0;
-    gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
-    assert_true(ok);
-    gl->DeleteShader(v);
-    gl->DeleteShader(f);
+    char *head = gl_shader_text("fetch.glsl", defines, NULL), *body = gl_shader_text(file, "", NULL);
+    const char *const text[] = {head, body + strcspn(body, "\n"), fragment_text}; /* without its version's line */
+    GLuint program = gl_screen_program(gl, text, 3);
     free(head);
     free(body);
-    free(text);
     return program;
 }
 
@@ -268,12 +208,8 @@ static void integrate(fixture *f, const tc_transfer *tf, tc_integrator integrato
     tc_pass_texture(gl, program, "cases", UNIT_CASES, GL_TEXTURE_2D, f->cases);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, HEIGHT, 0, GL_RGBA, GL_FLOAT, f->in);
     tc_pass_screen(gl);
-    gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
-    gl->ReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_FLOAT, f->out);
-    gl->ReadBuffer(GL_COLOR_ATTACHMENT1);
-    gl->ReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_FLOAT, f->out_cut);
-    if (tc_gl_check(gl, "the test", &err) != TC_OK)
-        fail_msg("%s", err.text);
+    gl_target_read(f->out, &f->target, gl, 0, GL_RGBA, GL_FLOAT);
+    gl_target_read(f->out_cut, &f->target, gl, 1, GL_RGBA, GL_FLOAT);
     gl->DeleteProgram(program);
     tc_transfer_gpu_finish(&transfer, gl);
 }
@@ -303,15 +239,6 @@ static void choose_pair(float pair[3], int k, uint64_t *random)
     }
     if (k % 8 == 7 || pair[0] == pair[1]) /* not on a step, where either side's value is right */
         pair[0] = pair[1] = ((float)(a % 1024) + 0.5F) / 1024;
-}
-
-static tc_transfer *make_function(const named_function *f)
-{
-    tc_transfer *tf;
-    tc_error err = {0};
-    if (tc_transfer_from_knots(&tf, f->knot, f->n, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return tf;
 }
 
 /* The function's mean extinction over a pair, by a length that is optically thin. */
@@ -418,8 +345,8 @@ static worst judge(const fixture *f, const named_function *function, const tc_tr
 /* ------------------------------------------------------------------------------------------------------ tests */
 
 typedef struct result {
-    bool any[CONTEXTS];
-    worst exact[CONTEXTS][FUNCTIONS], thin[CONTEXTS][FUNCTIONS], running[CONTEXTS][FUNCTIONS];
+    bool any[GL_CONTEXTS];
+    worst exact[GL_CONTEXTS][FUNCTIONS], thin[GL_CONTEXTS][FUNCTIONS], running[GL_CONTEXTS][FUNCTIONS];
 } result;
 
 static void spread_depths(double depths[DEPTHS])
@@ -431,7 +358,7 @@ static void spread_depths(double depths[DEPTHS])
 static worst measure(fixture *f, const named_function *function, tc_integrator integrator, const double *depths, int n,
                      double longest)
 {
-    tc_transfer *tf = make_function(function);
+    tc_transfer *tf = make(function->knot, function->n);
     choose_cases(f, tf, depths, n, longest);
     integrate(f, tf, integrator, fmin(longest, 50));
     worst w = judge(f, function, tf, n);
@@ -464,17 +391,17 @@ static int measure_all(void **state)
         return -1;
     *state = r;
     spread_depths(depths);
-    for (int c = 0; c < CONTEXTS; c++) {
+    for (int c = 0; c < GL_CONTEXTS; c++) {
         fixture f;
-        r->any[c] = open_fixture(&f, context_names[c]);
+        r->any[c] = open_fixture(&f, gl_context_names[c]);
         for (int k = 0; r->any[c] && k < FUNCTIONS; k++) {
             const named_function *function = &functions[k];
             r->exact[c][k] = measure(&f, function, TC_INTEGRATOR_EXACT, depths, DEPTHS, 1e30);
             r->thin[c][k] = measure(&f, function, TC_INTEGRATOR_EXACT, depths, DEPTHS, thin_length(function));
             r->running[c][k] = measure(&f, function, TC_INTEGRATOR_AUTO, depths, DEPTHS, 30);
-            print_worst(context_names[c], "exact", function, &r->exact[c][k]);
-            print_worst(context_names[c], "thin", function, &r->thin[c][k]);
-            print_worst(context_names[c], "auto", function, &r->running[c][k]);
+            print_worst(gl_context_names[c], "exact", function, &r->exact[c][k]);
+            print_worst(gl_context_names[c], "thin", function, &r->thin[c][k]);
+            print_worst(gl_context_names[c], "auto", function, &r->running[c][k]);
         }
         if (r->any[c])
             close_fixture(&f);
@@ -492,14 +419,14 @@ static int free_all(void **state)
 static void check_exact(const result *r, size_t offset, double bound)
 {
     bool any = false;
-    for (int c = 0; c < CONTEXTS; c++)
+    for (int c = 0; c < GL_CONTEXTS; c++)
         for (int k = 0; r->any[c] && k < FUNCTIONS; k++)
             for (int thin = 0; thin < 2; thin++) {
                 double value;
                 any = true;
                 memcpy(&value, (const char *)(thin ? &r->thin[c][k] : &r->exact[c][k]) + offset, sizeof value);
                 if (!(value <= bound))
-                    fail_msg("%s, %s: %g, more than %g", context_names[c], functions[k].name, value, bound);
+                    fail_msg("%s, %s: %g, more than %g", gl_context_names[c], functions[k].name, value, bound);
             }
     if (!any)
         skip();
@@ -548,17 +475,17 @@ static void a_dense_segment_or_none_is_not_a_number(void **state)
     static const tc_integrator integrators[] = {TC_INTEGRATOR_EXACT, TC_INTEGRATOR_AUTO};
     const result *r = *state;
     bool any = false;
-    for (int c = 0; c < CONTEXTS; c++) {
+    for (int c = 0; c < GL_CONTEXTS; c++) {
         fixture f;
         if (!r->any[c])
             continue;
         any = true;
-        assert_true(open_fixture(&f, context_names[c]));
+        assert_true(open_fixture(&f, gl_context_names[c]));
         for (int k = 0; k < FUNCTIONS; k++)
             for (int way = 0; way < 2; way++) {
                 worst w = measure(&f, &functions[k], integrators[way], depths, 5, 1e30);
                 if (!(w.alpha_difference <= 2e-6 && w.color_difference <= 5e-5 && w.fall <= 2e-6))
-                    fail_msg("%s, %s, way %d: opacity errs by %g, color by %g", context_names[c], functions[k].name,
+                    fail_msg("%s, %s, way %d: opacity errs by %g, color by %g", gl_context_names[c], functions[k].name,
                              way, w.alpha_difference, w.color_difference);
             }
         close_fixture(&f);
@@ -571,13 +498,13 @@ static void running_integrals_err_by_more_than_they_may(void **state)
 {
     const result *r = *state;
     bool any = false;
-    for (int c = 0; c < CONTEXTS; c++)
+    for (int c = 0; c < GL_CONTEXTS; c++)
         for (int k = 0; r->any[c] && k < FUNCTIONS; k++) {
             const worst *w = &r->running[c][k];
             any = true;
             double bound = functions[k].narrow ? 8e-3 : 1.5e-3; /* of a spike between two ends no sample tells */
             if (!(w->alpha_difference <= 1.5e-4 && w->color_difference <= bound))
-                fail_msg("%s, %s: opacity errs by %g, color by %g", context_names[c], functions[k].name,
+                fail_msg("%s, %s: opacity errs by %g, color by %g", gl_context_names[c], functions[k].name,
                          w->alpha_difference, w->color_difference);
         }
     if (!any)

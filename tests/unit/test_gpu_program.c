@@ -5,11 +5,10 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "gpu/context.h"
 #include "gpu/first_hit.h"
 #include "gpu/job.h"
+#include "tests/common/gl_program.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,10 +43,7 @@ static int line_of(const char *file, const char *what)
 static void a_file_is_included_twice_or_not(void **state)
 {
     (void)state;
-    char *text;
-    tc_error err = {0};
-    if (tc_program_text(&text, "march.frag", "#define COUNT\n", "integrator.glsl=integrate_table.glsl", &err) != TC_OK)
-        fail_msg("%s", err.text);
+    char *text = gl_shader_text("march.frag", "#define COUNT\n", "integrator.glsl=integrate_table.glsl");
     assert_int_equal(strncmp(text, "#version", 8), 0);
     assert_int_equal(count(text, "#define COUNT\n"), 1);
     assert_int_equal(count(text, "#include"), 0);
@@ -57,8 +53,7 @@ static void a_file_is_included_twice_or_not(void **state)
     assert_int_equal(count(text, "uniform sampler3D tf_table"), 1);
     assert_int_equal(count(text, "tf_nodes"), 0); /* the other integrator */
     free(text);
-    if (tc_program_text(&text, "march.frag", "", "integrator.glsl=integrate_integral.glsl", &err) != TC_OK)
-        fail_msg("%s", err.text);
+    text = gl_shader_text("march.frag", "", "integrator.glsl=integrate_integral.glsl");
     assert_true(count(text, "tf_nodes") > 0);
     assert_int_equal(count(text, "tf_table"), 0);
     free(text);
@@ -83,18 +78,29 @@ static void missing_files_are_not_named(void **state)
     }
 }
 
-static const char *const context_names[] = {"osmesa", "egl"};
-
 /* The context and a cache; false where it is missing. */
 static bool open_context(tc_context **context, tc_program_cache **cache, const char *name)
 {
     tc_error err = {0};
-    if (tc_context_create(context, name, NULL, &err) != TC_OK) {
-        printf("    %s: %s\n", name, err.text);
+    if (!gl_open(context, name))
         return false;
-    }
     assert_int_equal(tc_program_cache_create(cache, &(*context)->gl, &err), TC_OK);
     return true;
+}
+
+/* The first context that there is; the test is skipped where there is none. */
+static void open_any(tc_context **context, tc_program_cache **cache)
+{
+    for (int c = 0; c < GL_CONTEXTS; c++)
+        if (open_context(context, cache, gl_context_names[c]))
+            return;
+    skip();
+}
+
+static void close_context(tc_context **context, tc_program_cache **cache)
+{
+    tc_program_cache_destroy(cache);
+    tc_context_destroy(context);
 }
 
 static void compilers_errors_name_another_line(void **state)
@@ -110,10 +116,10 @@ static void compilers_errors_name_another_line(void **state)
         {"#define out_at 3 3\n", "march.frag", "out vec2 out_at"},
     };
     bool any = false;
-    for (int c = 0; c < 2; c++) {
+    for (int c = 0; c < GL_CONTEXTS; c++) {
         tc_context *context;
         tc_program_cache *cache;
-        if (!open_context(&context, &cache, context_names[c]))
+        if (!open_context(&context, &cache, gl_context_names[c]))
             continue;
         any = true;
         for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
@@ -127,8 +133,7 @@ static void compilers_errors_name_another_line(void **state)
             if (!strstr(err.text, expected))
                 fail_msg("no \"%s\" in: %s", expected, err.text);
         }
-        tc_program_cache_destroy(&cache);
-        tc_context_destroy(&context);
+        close_context(&context, &cache);
     }
     if (!any)
         skip();
@@ -148,6 +153,11 @@ enum {
     N_FEATURES = 512
 };
 
+static tc_frame frame_of(int features)
+{
+    return (tc_frame){.clip_near = features & INSIDE, .clip_far = features & FAR, .ahead = !(features & INSIDE)};
+}
+
 static tc_job job_of(int features, const tc_frame *frame)
 {
     return (tc_job){.frame = frame,
@@ -161,6 +171,15 @@ static tc_job job_of(int features, const tc_frame *frame)
                     .count = features & COUNT};
 }
 
+static GLuint get_source(tc_program_cache *cache, const tc_program_source *source)
+{
+    GLuint program;
+    tc_error err = {0};
+    if (tc_program_get(&program, cache, source, &err) != TC_OK)
+        fail_msg("%s with\n%s: %s", source->fragment, source->defines, err.text);
+    return program;
+}
+
 static GLuint get(tc_program_cache *cache, const char *vertex, const char *fragment, const tc_job *job)
 {
     char defines[512], alias[128];
@@ -171,12 +190,7 @@ static GLuint get(tc_program_cache *cache, const char *vertex, const char *fragm
              : job->integrator == TC_INTEGRATOR_EXACT ? "exact"
                                                       : "integral",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
-    const tc_program_source source = {vertex, fragment, defines, alias};
-    GLuint program;
-    tc_error err = {0};
-    if (tc_program_get(&program, cache, &source, &err) != TC_OK)
-        fail_msg("%s with\n%s: %s", fragment, defines, err.text);
-    return program;
+    return get_source(cache, &(tc_program_source){vertex, fragment, defines, alias});
 }
 
 static void expect_uniform(const tc_gl *gl, GLuint program, const char *name, bool expected, int features)
@@ -191,8 +205,7 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
     (void)state;
     tc_context *context;
     tc_program_cache *cache;
-    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
-        skip();
+    open_any(&context, &cache);
     const tc_gl *gl = &context->gl;
     static const int each[] = {0,
                                IMAGINARY,
@@ -213,7 +226,7 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
                                N_FEATURES - 1};
     for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
         int f = each[i];
-        tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
+        tc_frame frame = frame_of(f);
         tc_job job = job_of(f, &frame);
         GLuint march = get(cache, "screen.vert", "march.frag", &job);
         expect_uniform(gl, march, "mesh_real", f & IMAGINARY, f);
@@ -237,8 +250,7 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
         assert_int_equal(get(cache, "screen.vert", "march.frag", &job), march); /* equal text, the same program */
         get(cache, "screen.vert", "resolve.frag", &job);
     }
-    tc_program_cache_destroy(&cache);
-    tc_context_destroy(&context);
+    close_context(&context, &cache);
 }
 
 /* The paper's table needs no means of the function, that of the colour's drift needs them, and steps only where there
@@ -248,11 +260,10 @@ static void a_table_fetches_what_the_other_kind_has(void **state)
     (void)state;
     tc_context *context;
     tc_program_cache *cache;
-    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
-        skip();
+    open_any(&context, &cache);
     const tc_gl *gl = &context->gl;
     for (int f = 0; f < N_FEATURES; f += 13) {
-        tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
+        tc_frame frame = frame_of(f);
         tc_job job = job_of(f | TABLE, &frame);
         char defines[512];
         GLuint paper = get(cache, "screen.vert", "march.frag", &job);
@@ -271,8 +282,7 @@ static void a_table_fetches_what_the_other_kind_has(void **state)
         assert_int_equal(count(defines, "TF_STEPS"), 1);
         assert_int_not_equal(get(cache, "screen.vert", "march.frag", &job), drift);
     }
-    tc_program_cache_destroy(&cache);
-    tc_context_destroy(&context);
+    close_context(&context, &cache);
 }
 
 /* Either stepper's program holds nothing of the other's. */
@@ -294,11 +304,10 @@ static void the_paper_s_stepper_is_where_it_is_not_asked_for(void **state)
 
     tc_context *context;
     tc_program_cache *cache;
-    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
-        skip();
+    open_any(&context, &cache);
     const tc_gl *gl = &context->gl;
     for (int f = 0; f < N_FEATURES; f += 13) {
-        tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
+        tc_frame frame = frame_of(f);
         tc_job job = job_of(f, &frame);
         GLuint signs = get(cache, "screen.vert", "march.frag", &job);
         GLuint first = get(cache, "first_hit.vert", "first_hit.frag", &job);
@@ -316,8 +325,7 @@ static void the_paper_s_stepper_is_where_it_is_not_asked_for(void **state)
         get(cache, "screen.vert", "march.frag", &job);
     }
     get(cache, "screen.vert", "lost.frag", &(tc_job){.frame = &(tc_frame){.ahead = true}});
-    tc_program_cache_destroy(&cache);
-    tc_context_destroy(&context);
+    close_context(&context, &cache);
 }
 
 /* Only the first hits of marked pixels know of marks. */
@@ -340,19 +348,13 @@ static void marks_are_read_where_every_pixel_has_a_ray(void **state)
             fail_msg("%s knows of marks", f->name);
     tc_context *context;
     tc_program_cache *cache;
-    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
-        skip();
+    open_any(&context, &cache);
     for (int peel = 0; peel < 2; peel++) {
         const tc_program_source source = {"first_hit.vert", "first_hit.frag",
                                           peel ? "#define SAMPLE_MASK\n#define PEEL\n" : "#define SAMPLE_MASK\n", NULL};
-        GLuint program;
-        tc_error err = {0};
-        if (tc_program_get(&program, cache, &source, &err) != TC_OK)
-            fail_msg("%s", err.text);
-        expect_uniform(&context->gl, program, "sample_mask", true, peel);
+        expect_uniform(&context->gl, get_source(cache, &source), "sample_mask", true, peel);
     }
-    tc_program_cache_destroy(&cache);
-    tc_context_destroy(&context);
+    close_context(&context, &cache);
 }
 
 static void a_plain_scene_defines_anything(void **state)
@@ -375,11 +377,10 @@ static void some_shader_does_not_compile(void **state)
     (void)state;
     tc_context *context;
     tc_program_cache *cache;
-    if (!open_context(&context, &cache, "osmesa") && !open_context(&context, &cache, "egl"))
-        skip();
+    open_any(&context, &cache);
     const tc_gl *gl = &context->gl;
     for (int f = 0; f < N_FEATURES; f += 13) { /* odd steps meet every pair of features */
-        tc_frame frame = {.clip_near = f & INSIDE, .clip_far = f & FAR, .ahead = !(f & INSIDE)};
+        tc_frame frame = frame_of(f);
         for (int way = 0; way < 4; way++) {
             tc_job job = job_of(f, &frame);
             if (way & 1 && job.integrator == TC_INTEGRATOR_INTEGRAL)
@@ -403,14 +404,9 @@ static void some_shader_does_not_compile(void **state)
     static const char *const shares[] = {"#define SHARE\n", "#define SHARE\n#define COLOR_HOLDS_DEPTH\n"};
     for (int i = 0; i < 2; i++) {
         const tc_program_source source = {"screen.vert", "resolve.frag", shares[i], NULL};
-        GLuint program;
-        tc_error err = {0};
-        if (tc_program_get(&program, cache, &source, &err) != TC_OK)
-            fail_msg("%s", err.text);
-        expect_uniform(gl, program, "share", true, i);
+        expect_uniform(gl, get_source(cache, &source), "share", true, i);
     }
-    tc_program_cache_destroy(&cache);
-    tc_context_destroy(&context);
+    close_context(&context, &cache);
 }
 
 int main(void)

@@ -6,10 +6,9 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "gpu/context.h"
 #include "gpu/frame.h"
 #include "gpu/pass.h"
-#include "gpu/program.h"
+#include "tests/common/gl_program.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,89 +18,40 @@ enum { SIDE = 640 };
 
 typedef struct fixture {
     tc_context *context;
-    GLuint texture, framebuffer, array;
+    GLuint texture;
+    gl_target target;
     int32_t *pixel; /* [SIDE][SIDE][4] */
 } fixture;
 
 static bool open_fixture(fixture *f, const char *name)
 {
-    tc_error err = {0};
     memset(f, 0, sizeof *f);
-    if (tc_context_create(&f->context, name, NULL, &err) != TC_OK) {
-        printf("    %s: %s\n", name, err.text);
+    if (!gl_open(&f->context, name))
         return false;
-    }
     const tc_gl *gl = &f->context->gl;
     f->pixel = malloc(sizeof(int32_t) * 4 * SIDE * SIDE);
     assert_non_null(f->pixel);
-    gl->GenTextures(1, &f->texture);
-    gl->BindTexture(GL_TEXTURE_2D, f->texture);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32I, SIDE, SIDE, 0, GL_RGBA_INTEGER, GL_INT, NULL);
-    gl->GenFramebuffers(1, &f->framebuffer);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, f->framebuffer);
-    gl->FramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, f->texture, 0);
-    gl->GenVertexArrays(1, &f->array);
-    gl->BindVertexArray(f->array);
-    gl->Viewport(0, 0, SIDE, SIDE);
+    f->texture = gl_texture(gl, GL_RGBA32I, GL_RGBA_INTEGER, GL_INT, SIDE, SIDE);
+    f->target = gl_target_of(gl, &f->texture, 1, SIDE, SIDE);
     return true;
 }
 
 static void close_fixture(fixture *f)
 {
     const tc_gl *gl = &f->context->gl;
-    gl->DeleteFramebuffers(1, &f->framebuffer);
+    gl_target_finish(&f->target, gl);
     gl->DeleteTextures(1, &f->texture);
-    gl->DeleteVertexArrays(1, &f->array);
     free(f->pixel);
     tc_context_destroy(&f->context);
-}
-
-static GLuint compile(const tc_gl *gl, GLenum stage, const char *text)
-{
-    GLuint shader = gl->CreateShader(stage);
-    gl->ShaderSource(shader, 1, &text, NULL);
-    gl->CompileShader(shader);
-    GLint ok = 0;
-    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (!ok) {
-        char log[2048] = "";
-        gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-        fail_msg("%s", log);
-    }
-    return shader;
 }
 
 /* A program of a shader file's whole text followed by `more`. */
 static GLuint make_program(const tc_gl *gl, const char *file, const char *defines, const char *alias, const char *more)
 {
-    static const char vertex[] =
-        "#version 430 core\n"
-        "flat out int face_id;\n" /* an input of first_hit.frag */
-        "void main()\n"
-        "{\n"
-        "    face_id = 0;\n"
-        "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
-        "}\n";
-    char *head;
-    tc_error err = {0};
-    if (tc_program_text(&head, file, defines, alias, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    size_t n = strlen(head) + strlen(more) + 1;
-    char *text = malloc(n);
-    assert_non_null(text);
-    snprintf(text, n, "%s%s", head, more);
-    GLuint v = compile(gl, GL_VERTEX_SHADER, vertex), f = compile(gl, GL_FRAGMENT_SHADER, text);
-    GLuint program = gl->CreateProgram();
-    gl->AttachShader(program, v);
-    gl->AttachShader(program, f);
-    gl->LinkProgram(program);
-    GLint ok = 0;
-    gl->GetProgramiv(program, GL_LINK_STATUS, &ok);
-    assert_true(ok);
-    gl->DeleteShader(v);
-    gl->DeleteShader(f);
+    char *head = gl_shader_text(file, defines, alias);
+    const char *const text[] = {head, more};
+    GLuint program = gl_screen_program(gl, text, 2);
     free(head);
-    free(text);
     return program;
 }
 
@@ -110,19 +60,10 @@ static void run(fixture *f, GLuint program)
 {
     const tc_gl *gl = &f->context->gl;
     const GLint nothing[4] = {-77, -77, -77, -77};
-    const GLenum buffer = GL_COLOR_ATTACHMENT0;
-    gl->BindFramebuffer(GL_FRAMEBUFFER, f->framebuffer);
-    gl->DrawBuffers(1, &buffer);
-    gl->ReadBuffer(buffer);
     gl->ClearBufferiv(GL_COLOR, 0, nothing);
-    gl->Disable(GL_DEPTH_TEST);
     gl->UseProgram(program);
     tc_pass_screen(gl);
-    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl->ReadPixels(0, 0, SIDE, SIDE, GL_RGBA_INTEGER, GL_INT, f->pixel);
-    tc_error err = {0};
-    if (tc_gl_check(gl, "the test", &err) != TC_OK)
-        fail_msg("%s", err.text);
+    gl_target_read(f->pixel, &f->target, gl, 0, GL_RGBA_INTEGER, GL_INT);
     gl->DeleteProgram(program);
 }
 
@@ -184,8 +125,6 @@ static int sign_of(const int64_t *p, const int64_t *q, int i, int j)
     return cross > 0 ? 1 : -1;
 }
 
-static const char *const context_names[] = {"osmesa", "egl"};
-
 static void a_sign_is_not_that_of_the_exact_cross(void **state)
 {
     (void)state;
@@ -203,9 +142,9 @@ static void a_sign_is_not_that_of_the_exact_cross(void **state)
     char more[sizeof numbers + sizeof body];
     snprintf(more, sizeof more, "%s%s", numbers, body);
     bool any = false;
-    for (int c = 0; c < 2; c++) {
+    for (int c = 0; c < GL_CONTEXTS; c++) {
         fixture f;
-        if (!open_fixture(&f, context_names[c]))
+        if (!open_fixture(&f, gl_context_names[c]))
             continue;
         any = true;
         for (int way = 0; way < 2; way++) {
@@ -223,7 +162,7 @@ static void a_sign_is_not_that_of_the_exact_cross(void **state)
                 ties += r[0] * r[3] == r[1] * r[2];
                 if ((value[0] > 0) - (value[0] < 0) != expected)
                     fail_msg("%s: cross of (%lld, %lld) and (%lld, %lld) is %g, its sign should be %d",
-                             context_names[c], (long long)r[0], (long long)r[1], (long long)r[2], (long long)r[3],
+                             gl_context_names[c], (long long)r[0], (long long)r[1], (long long)r[2], (long long)r[3],
                              (double)value[0], expected);
                 if (value[1] != -value[0])
                     fail_msg("cross is not antisymmetric: %g and %g", (double)value[0], (double)value[1]);
@@ -254,16 +193,16 @@ static void a_cell_has_one_three_or_four_faces_that_hold_the_ray(void **state)
         "    bits = ivec4(n, 0, 0, 0);\n"
         "}\n";
     bool any = false;
-    for (int c = 0; c < 2; c++) {
+    for (int c = 0; c < GL_CONTEXTS; c++) {
         fixture f;
-        if (!open_fixture(&f, context_names[c]))
+        if (!open_fixture(&f, gl_context_names[c]))
             continue;
         any = true;
         run(&f, make_program(&f.context->gl, "signs.glsl", "", NULL, body));
         size_t two = 0;
         for (size_t i = 0; i < 390625; i++) {
             if (f.pixel[4 * i] != 0 && f.pixel[4 * i] != 2)
-                fail_msg("%s: set %zu: %d faces hold the ray", context_names[c], i, f.pixel[4 * i]);
+                fail_msg("%s: set %zu: %d faces hold the ray", gl_context_names[c], i, f.pixel[4 * i]);
             two += f.pixel[4 * i] == 2;
         }
         assert_true(two > 50000 && two < 350000);
@@ -302,12 +241,14 @@ static void programs_see_a_vertex_at_different_places(void **state)
         {"ray.glsl", "", NULL},
         {"first_hit.frag", "", NULL},
         {"first_hit.frag", "#define PEEL\n", NULL},
-        {"first_hit.frag", "#define PEEL\n#define CLIP_NEAR\n#define CLIP_FAR\n#define HAS_IMAGINARY\n#define COLOR_HOLDS_DEPTH\n", NULL},
+        {"first_hit.frag",
+         "#define PEEL\n#define CLIP_NEAR\n#define CLIP_FAR\n#define HAS_IMAGINARY\n#define COLOR_HOLDS_DEPTH\n", NULL},
         {"first_hit.frag", "#define SOFTWARE\n", NULL},
         {"march.frag", "", "integrator.glsl=integrate_table.glsl"},
         {"march.frag", "#define HAS_IMAGINARY\n#define COUNT\n", "integrator.glsl=integrate_table.glsl"},
         {"march.frag", "#define COLOR_HOLDS_DEPTH\n", "integrator.glsl=integrate_integral.glsl"},
-        {"march.frag", "#define COLOR_HOLDS_DEPTH\n#define CLIP_NEAR\n#define CLIP_FAR\n#define CELL_DATA\n#define TF_EXTEND\n",
+        {"march.frag",
+         "#define COLOR_HOLDS_DEPTH\n#define CLIP_NEAR\n#define CLIP_FAR\n#define CELL_DATA\n#define TF_EXTEND\n",
          "integrator.glsl=integrate_integral.glsl"},
         {"march.frag", "#define COLOR_HOLDS_DEPTH\n#define HAS_IMAGINARY\n#define SOFTWARE\n",
          "integrator.glsl=integrate_exact.glsl"},
@@ -348,9 +289,9 @@ static void programs_see_a_vertex_at_different_places(void **state)
     bool any = false;
     int32_t *first = malloc(sizeof(int32_t) * 4 * SIDE * SIDE);
     assert_non_null(first);
-    for (int c = 0; c < 2; c++) {
+    for (int c = 0; c < GL_CONTEXTS; c++) {
         fixture f;
-        if (!open_fixture(&f, context_names[c]))
+        if (!open_fixture(&f, gl_context_names[c]))
             continue;
         any = true;
         const tc_gl *gl = &f.context->gl;
@@ -377,7 +318,7 @@ static void programs_see_a_vertex_at_different_places(void **state)
                     if (f.pixel[i] != first[i])
                         fail_msg(
                             "%s: %s with %s sees other bits than ray.glsl alone, camera %zu, pixel %zu: %08x, %08x",
-                            context_names[c], variants[v].file, variants[v].defines, k, i / 4, (unsigned)f.pixel[i],
+                            gl_context_names[c], variants[v].file, variants[v].defines, k, i / 4, (unsigned)f.pixel[i],
                             (unsigned)first[i]);
             }
         }
