@@ -1,5 +1,5 @@
 /* test_reference_truth.c: colours traced once for many pictures, and what a sample says of the pixels not drawn. */
-#include "test_reference_fixture.h"
+#include "reference_scene.h"
 
 #include "reference/truth.h"
 
@@ -8,43 +8,23 @@
 
 enum { W = 40, H = 30, N = W * H };
 
-typedef struct scene {
-    struct tc_mesh mesh;
-    tc_reference *reference;
-    tc_knot knot[2];
-    struct tc_transfer tf;
-    tc_rays rays;
-    tc_image image;
-    float pixels[N * 4];
-} scene;
-
 static void scene_init(scene *s, bool parallel)
 {
-    memset(s, 0, sizeof *s);
-    s->mesh = kuhn_cube(2);
-    linear_field(&s->mesh, 0, 0.2, 0.3, 0.5);
-    s->reference = reference_of(&s->mesh);
-    s->knot[0] = (tc_knot){0, 0, 0, 1, 0.5};
-    s->knot[1] = (tc_knot){1, 1, 0.2, 0, 3};
-    s->tf.n = 2, s->tf.knot = s->knot;
-    const double bounds[6] = {0, 1, 0, 1, 0, 1}, front[3] = {0.3, 0.2, 1}, up[3] = {0, 1, 0};
-    tc_camera camera = {.parallel = parallel};
-    tc_camera_reset(&camera, bounds, front, up, 30, (double)W / H);
-    assert_int_equal(tc_rays_from_camera(&s->rays, &camera, W, H, NULL), TC_OK);
-    s->image = (tc_image){W, H, s->pixels};
-}
-
-static void scene_finish(scene *s)
-{
-    tc_reference_destroy(&s->reference);
-    mesh_free(&s->mesh);
+    scene_of(s, &(scene_choice){.width = W,
+                                .height = H,
+                                .cells = 2,
+                                .gradient = {0.2, 0.3, 0.5},
+                                .knot = {{0, 0, 0, 1, 0.5}, {1, 1, 0.2, 0, 3}},
+                                .front = {0.3, 0.2, 1},
+                                .parallel = parallel,
+                                .zoom = 1});
 }
 
 /* The image that the truth of all pixels holds. */
 static void draw(scene *s)
 {
     tc_reference_set_samples(s->reference, 1);
-    assert_int_equal(tc_reference_render(&s->image, s->reference, &s->tf, 1, &s->rays, 1, NULL, NULL), TC_OK);
+    scene_draw(s, 1);
 }
 
 /* Parallel rays along z; columns 0 and 8 lie in the sides x = 0 and x = 1, where a row has them at all. */
@@ -88,11 +68,7 @@ static tc_verify_result compare(tc_truth *truth, tc_image *errors, const tc_imag
 
 static tc_verify_result verify(const scene *s, size_t n, uint64_t seed)
 {
-    tc_verify_result v;
-    tc_error err;
-    if (tc_reference_verify(&v, NULL, &s->image, n, seed, s->reference, &s->tf, 1, &s->rays, 1, NULL, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return v;
+    return scene_verify(s, n, seed, 1);
 }
 
 /* One truth and many pictures, among them such that err at ill-posed rays now and then. */
@@ -174,7 +150,7 @@ static void color_is_not_the_mean_over_the_grid(void **state)
             assert_true(verify(&s, N, 1).max_abs_error < 6e-8);
             tc_reference_set_samples(s.reference, rays);
             assert_true(verify(&s, N, 1).max_abs_error > 0.01);
-            assert_int_equal(tc_reference_render(&s.image, s.reference, &s.tf, 1, &s.rays, 1, NULL, NULL), TC_OK);
+            scene_draw(&s, 1);
             tc_verify_result v = verify(&s, N, 1);
             assert_true(v.max_abs_error < 6e-8 && v.ill_posed == 0);
         }
@@ -193,7 +169,7 @@ static void pixel_with_ill_posed_rays_counts_as_an_error(void **state)
     for (int i = 0; i < 2; i++)
         s.rays.origin[i] += i == 0 ? 0.5 / 8 : 0; /* x = (X - 0.25) / 8 */
     tc_reference_set_samples(s.reference, 4);
-    assert_int_equal(tc_reference_render(&s.image, s.reference, &s.tf, 1, &s.rays, 1, NULL, NULL), TC_OK);
+    scene_draw(&s, 1);
     size_t wrong = 0;
     for (int y = 0; y < H; y++)
         for (int x = 0; x <= 8; x += 8) {

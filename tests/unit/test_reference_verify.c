@@ -1,61 +1,21 @@
 /* test_reference_verify.c: rendering whole images, and the judgement of a picture by sampled pixels. */
-#include "test_reference_fixture.h"
+#include "reference_scene.h"
 
 #include <float.h>
 
 enum { W = 24, H = 16 };
 
-typedef struct scene {
-    struct tc_mesh mesh;
-    tc_reference *reference;
-    tc_knot knot[2];
-    struct tc_transfer tf;
-    tc_rays rays;
-    tc_image image;
-    float pixels[W * H * 4];
-} scene;
-
-/* The cube, denser and redder upwards, seen from +z: the whole picture is covered when `near`. */
+/* The cube, denser and redder upwards, seen from +z. */
 static void scene_init(scene *s, bool parallel, double zoom)
 {
-    memset(s, 0, sizeof *s);
-    s->mesh = kuhn_cube(3);
-    linear_field(&s->mesh, 0, 0, 1, 0);
-    s->reference = reference_of(&s->mesh);
-    s->knot[0] = (tc_knot){0, 0, 0, 1, 0.5};
-    s->knot[1] = (tc_knot){1, 1, 0, 0, 3};
-    s->tf.n = 2, s->tf.knot = s->knot;
-    const double bounds[6] = {0, 1, 0, 1, 0, 1}, front[3] = {0, 0, 1}, up[3] = {0, 1, 0};
-    tc_camera camera = {.parallel = parallel};
-    tc_camera_reset(&camera, bounds, front, up, 30, (double)W / H);
-    tc_camera_zoom(&camera, zoom);
-    assert_int_equal(tc_rays_from_camera(&s->rays, &camera, W, H, NULL), TC_OK);
-    s->image = (tc_image){W, H, s->pixels};
-}
-
-static void scene_finish(scene *s)
-{
-    tc_reference_destroy(&s->reference);
-    assert_null(s->reference);
-    tc_reference_destroy(&s->reference);
-    mesh_free(&s->mesh);
-}
-
-static void draw(scene *s, int threads)
-{
-    tc_error err;
-    if (tc_reference_render(&s->image, s->reference, &s->tf, 1, &s->rays, threads, NULL, &err) != TC_OK)
-        fail_msg("%s", err.text);
-}
-
-static tc_verify_result verify(scene *s, size_t n, uint64_t seed, int threads)
-{
-    tc_verify_result v;
-    tc_error err;
-    memset(&v, 0x55, sizeof v);
-    if (tc_reference_verify(&v, NULL, &s->image, n, seed, s->reference, &s->tf, 1, &s->rays, threads, NULL, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return v;
+    scene_of(s, &(scene_choice){.width = W,
+                                .height = H,
+                                .cells = 3,
+                                .gradient = {0, 1, 0},
+                                .knot = {{0, 0, 0, 1, 0.5}, {1, 1, 0, 0, 3}},
+                                .front = {0, 0, 1},
+                                .parallel = parallel,
+                                .zoom = zoom});
 }
 
 static void picture_is_upside_down_or_off_by_a_pixel(void **state)
@@ -64,7 +24,7 @@ static void picture_is_upside_down_or_off_by_a_pixel(void **state)
     for (int parallel = 0; parallel < 2; parallel++) {
         scene s;
         scene_init(&s, parallel, 1);
-        draw(&s, 2);
+        scene_draw(&s, 2);
         size_t covered = 0;
         for (int y = 0; y < H; y++)
             for (int x = 0; x < W; x++) {
@@ -91,10 +51,10 @@ static void threads_change_the_picture(void **state)
     scene s;
     float one[W * H * 4];
     scene_init(&s, false, 1.3);
-    draw(&s, 1);
+    scene_draw(&s, 1);
     memcpy(one, s.pixels, sizeof one);
-    memset(s.pixels, 0x7f, sizeof s.pixels);
-    draw(&s, 5);
+    memset(s.pixels, 0x7f, sizeof one);
+    scene_draw(&s, 5);
     assert_memory_equal(one, s.pixels, sizeof one);
     scene_finish(&s);
 }
@@ -104,16 +64,16 @@ static void own_picture_is_found_wrong(void **state)
     (void)state;
     scene s;
     scene_init(&s, false, 1);
-    draw(&s, 1);
-    tc_verify_result v = verify(&s, 1000000, 1, 2);
+    scene_draw(&s, 1);
+    tc_verify_result v = scene_verify(&s, 1000000, 1, 2);
     assert_int_equal(v.pixels, W * H);
     assert_int_equal(v.ill_posed, 0);
     assert_true(v.max_abs_error < 6e-8 && v.max_abs_error > 0);
     assert_true(v.mean_abs_error <= v.p999_abs_error && v.p999_abs_error <= v.max_abs_error);
     assert_int_equal(v.rays_lost, 0);
-    v = verify(&s, 100, 1, 2);
+    v = scene_verify(&s, 100, 1, 2);
     assert_int_equal(v.pixels, 100);
-    v = verify(&s, 0, 1, 2);
+    v = scene_verify(&s, 0, 1, 2);
     assert_int_equal(v.pixels, 0);
     NEAR(v.max_abs_error, 0, 0);
     scene_finish(&s);
@@ -124,10 +84,10 @@ static void wrong_pixel_is_not_found_or_misplaced(void **state)
     (void)state;
     scene s;
     scene_init(&s, false, 1);
-    draw(&s, 1);
+    scene_draw(&s, 1);
     s.pixels[4 * (6 * W + 11) + 2] += 0.125f; /* well inside */
     s.pixels[4 * (9 * W + 13) + 3] -= 0.0625f;
-    tc_verify_result v = verify(&s, W * H, 7, 1);
+    tc_verify_result v = scene_verify(&s, W * H, 7, 1);
     NEAR(v.max_abs_error, 0.125, 1e-6);
     assert_int_equal(v.worst_x, 11);
     assert_int_equal(v.worst_y, 6);
@@ -143,24 +103,24 @@ static void sample_repeats_or_favours_pixels(void **state)
     (void)state;
     scene s;
     scene_init(&s, false, 1);
-    draw(&s, 1);
+    scene_draw(&s, 1);
     for (int k = 0; k < W * H; k++)
         s.pixels[4 * k] += 0.25f; /* all wrong alike: mean, p999 and max say how many were looked at */
-    tc_verify_result v = verify(&s, 100, 3, 1);
+    tc_verify_result v = scene_verify(&s, 100, 3, 1);
     NEAR(v.mean_abs_error, 0.0625, 1e-6);
     NEAR(v.p999_abs_error, 0.25, 1e-6);
-    draw(&s, 1);
+    scene_draw(&s, 1);
     /* One wrong pixel: found in all seeds by all pixels but one, save where that is the one; in half by half. */
     s.pixels[4 * (6 * W + 11)] += 0.25f;
     int most = 0, half = 0;
     for (uint64_t seed = 0; seed < 400; seed++) {
-        most += verify(&s, W * H - 1, seed, 1).max_abs_error > 0.2;
-        half += verify(&s, W * H / 2, seed, 1).max_abs_error > 0.2;
+        most += scene_verify(&s, W * H - 1, seed, 1).max_abs_error > 0.2;
+        half += scene_verify(&s, W * H / 2, seed, 1).max_abs_error > 0.2;
     }
     assert_true(most >= 390);
     assert_true(half > 150 && half < 250); /* five standard deviations */
     /* The same seed sees the same pixels, on any number of threads. */
-    tc_verify_result a = verify(&s, 50, 9, 1), b = verify(&s, 50, 9, 4), c = verify(&s, 50, 10, 4);
+    tc_verify_result a = scene_verify(&s, 50, 9, 1), b = scene_verify(&s, 50, 9, 4), c = scene_verify(&s, 50, 10, 4);
     assert_memory_equal(&a, &b, sizeof a);
     assert_true(a.mean_abs_error != c.mean_abs_error);
     scene_finish(&s);
@@ -175,7 +135,7 @@ static void ray_in_a_side_counts_as_an_error(void **state)
     s.rays.origin[0] = -0.5 / 8, s.rays.origin[1] = -0.5, s.rays.origin[2] = 2;
     for (int i = 0; i < 3; i++)
         s.rays.origin_dx[i] = i == 0 ? 1.0 / 8 : 0, s.rays.origin_dy[i] = i == 1 ? 2.0 / H : 0;
-    draw(&s, 1);
+    scene_draw(&s, 1);
     /* Columns 0 and 8 lie in the sides x = 0 and x = 1: give them what their other side has. */
     size_t wrong = 0;
     for (int y = 0; y < H; y++)
@@ -187,13 +147,13 @@ static void ray_in_a_side_counts_as_an_error(void **state)
             wrong += inner[3] > 0;
         }
     assert_true(wrong >= H / 2);
-    tc_verify_result v = verify(&s, W * H, 1, 2);
+    tc_verify_result v = scene_verify(&s, W * H, 1, 2);
     assert_int_equal(v.ill_posed, wrong);
     assert_true(v.max_abs_error < 1e-6);
     assert_true(v.worst_error_ill_posed > 0.3);
     /* A wrong pixel inside is an error all the same. */
     s.pixels[4 * (8 * W + 4)] += 0.01f;
-    v = verify(&s, W * H, 1, 2);
+    v = scene_verify(&s, W * H, 1, 2);
     NEAR(v.max_abs_error, 0.01, 1e-6);
     assert_int_equal(v.ill_posed, wrong);
     scene_finish(&s);
@@ -211,11 +171,11 @@ static void ray_at_a_corner_counts_as_an_error(void **state)
         s.rays.origin[0] = beside[corner][0] - 0.5 / 8, s.rays.origin[1] = beside[corner][1] - 0.5 / 8;
         for (int i = 0; i < 3; i++)
             s.rays.origin_dx[i] = i == 0 ? 1.0 / 8 : 0, s.rays.origin_dy[i] = i == 1 ? 1.0 / 8 : 0;
-        draw(&s, 1);
+        scene_draw(&s, 1);
         float *pixel = &s.pixels[4 * ((H - 1) * W)]; /* bottom left */
         NEAR(pixel[3], 0, 0);
         pixel[3] = 0.5f;
-        tc_verify_result v = verify(&s, W * H, 1, 1);
+        tc_verify_result v = scene_verify(&s, W * H, 1, 1);
         assert_int_equal(v.ill_posed, 1);
         NEAR(v.worst_error_ill_posed, 0.5, 1e-6);
         assert_true(v.max_abs_error < 1e-6);
@@ -268,10 +228,10 @@ static void thickness_of_a_plate_counts_as_an_error(void **state)
     s.reference = reference_of(&s.mesh);
     tc_knot knot[3] = {{0, 1, 1, 1, 0}, {0.9, 1, 1, 1, 0}, {1, 1, 1, 1, 2e5}};
     s.tf.n = 3, s.tf.knot = knot;
-    draw(&s, 1);
+    scene_draw(&s, 1);
     for (int k = 0; k < 4 * W * H; k++)
         s.pixels[k] *= 1.005f;
-    tc_verify_result v = verify(&s, W * H, 1, 1);
+    tc_verify_result v = scene_verify(&s, W * H, 1, 1);
     assert_true(v.worst_error_ill_posed > 2e-3);
     assert_true(v.max_abs_error < 1.0 / 510);
     scene_finish(&s);
@@ -291,12 +251,12 @@ static void value_on_a_step_counts_as_an_error(void **state)
     s.mesh.scalar = cells, s.mesh.association = TC_CELL_DATA;
     tc_knot step[4] = {{0, 1, 1, 1, 1}, {0.5, 1, 1, 1, 1}, {0.5, 1, 1, 1, 4}, {1, 1, 1, 1, 4}};
     s.tf.n = 4, s.tf.knot = step;
-    draw(&s, 1);
+    scene_draw(&s, 1);
     for (int k = 0; k < W * H; k++)
         if (s.pixels[4 * k + 3] > 0)
             for (int i = 0; i < 4; i++)
                 s.pixels[4 * k + i] *= 0.8f;
-    tc_verify_result v = verify(&s, W * H, 1, 1);
+    tc_verify_result v = scene_verify(&s, W * H, 1, 1);
     assert_true(v.ill_posed > W * H / 2);
     assert_true(v.worst_error_ill_posed > 0.1);
     s.mesh.scalar = points, s.mesh.association = TC_POINT_DATA;
@@ -309,14 +269,14 @@ static void nan_in_the_picture_passes(void **state)
     (void)state;
     scene s;
     scene_init(&s, false, 1);
-    draw(&s, 1);
+    scene_draw(&s, 1);
     s.pixels[4 * (3 * W + 2) + 1] = NAN;
-    tc_verify_result v = verify(&s, W * H, 1, 1);
+    tc_verify_result v = scene_verify(&s, W * H, 1, 1);
     NEAR(v.max_abs_error, FLT_MAX, 0);
     assert_int_equal(v.worst_x, 2);
     assert_int_equal(v.worst_y, 3);
     s.pixels[4 * (3 * W + 2) + 1] = -INFINITY;
-    NEAR(verify(&s, W * H, 1, 1).max_abs_error, FLT_MAX, 0);
+    NEAR(scene_verify(&s, W * H, 1, 1).max_abs_error, FLT_MAX, 0);
     scene_finish(&s);
 }
 
@@ -330,7 +290,8 @@ static void bad_arguments_are_accepted(void **state)
     tc_image other = {W, H - 1, s.pixels};
     assert_int_equal(tc_reference_render(&other, s.reference, &s.tf, 1, &s.rays, 1, NULL, &err), TC_E_ARG);
     assert_non_null(strstr(err.text, "24 x 15"));
-    assert_int_equal(tc_reference_verify(&v, NULL, &other, 1, 0, s.reference, &s.tf, 1, &s.rays, 1, NULL, &err), TC_E_ARG);
+    assert_int_equal(tc_reference_verify(&v, NULL, &other, 1, 0, s.reference, &s.tf, 1, &s.rays, 1, NULL, &err),
+                     TC_E_ARG);
     assert_int_equal(tc_reference_render(&s.image, s.reference, &s.tf, 0, &s.rays, 1, NULL, &err), TC_E_ARG);
     assert_non_null(strstr(err.text, "unit distance 0"));
     assert_int_equal(tc_reference_verify(&v, NULL, &s.image, 1, 0, s.reference, &s.tf, NAN, &s.rays, 1, NULL, &err),
@@ -372,7 +333,8 @@ static void progress_runs_backwards_or_is_silent(void **state)
     NEAR(t.last, 1, 0);
     t = (talk){0, 0};
     tc_verify_result v;
-    assert_int_equal(tc_reference_verify(&v, NULL, &s.image, W * H, 1, s.reference, &s.tf, 1, &s.rays, 1, &log, NULL), TC_OK);
+    assert_int_equal(tc_reference_verify(&v, NULL, &s.image, W * H, 1, s.reference, &s.tf, 1, &s.rays, 1, &log, NULL),
+                     TC_OK);
     assert_true(t.calls > 1);
     NEAR(t.last, 1, 0);
     scene_finish(&s);
