@@ -1,4 +1,5 @@
 /* suite.c: what the programs of the suite share. */
+#define _GNU_SOURCE
 #include "suite.h"
 
 #include "core/vec.h"
@@ -188,15 +189,36 @@ static void expect_sane(const tc_image *image, const tc_transfer *tf, const tc_r
         fail_msg("%s", what);
 }
 
+tc_renderer *suite_renderer(const char *poison)
+{
+    const tc_renderer_options options = {.gl = suite.gpu ? suite.name : NULL,
+                                         .driver = suite.gpu ? "pingpong" : "reference"};
+    tc_renderer *renderer;
+    tc_error err = {0};
+    if (poison)
+        setenv("TETCAST_GL_POISON", poison, 1);
+    expect_ok(tc_renderer_create(&renderer, &options, NULL, &err), &err, "another renderer");
+    if (poison)
+        unsetenv("TETCAST_GL_POISON");
+    return renderer;
+}
+
+tc_image *suite_render_by(tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh, const tc_transfer *tf,
+                          const tc_camera *camera, const tc_render_options *options)
+{
+    tc_image *image;
+    tc_error err = {0};
+    expect_ok(tc_render(&image, stats, renderer, mesh, tf, camera, options, NULL, &err), &err, "rendering");
+    return image;
+}
+
 tc_image *suite_render(tc_render_stats *stats, const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,
                        const tc_render_options *options)
 {
     tc_render_stats own;
-    tc_image *image;
-    tc_error err = {0};
     if (!stats)
         stats = &own;
-    expect_ok(tc_render(&image, stats, suite.renderer, mesh, tf, camera, options, NULL, &err), &err, "rendering");
+    tc_image *image = suite_render_by(stats, suite.renderer, mesh, tf, camera, options);
     assert_int_equal(stats->rays_lost, 0);
     assert_int_equal(image->width, options->width);
     assert_int_equal(image->height, options->height);

@@ -1,4 +1,5 @@
-/* suite.h: the one suite that every driver passes on every context (docs/architecture.md, "Drivers"): what its programs share.
+/* suite.h: the one suite that every driver passes on every context (docs/architecture.md, "Drivers"): what its programs
+ * share.
  *
  * Each program takes a back end as its argument: a context ("osmesa", "egl") for the driver pingpong, or "reference".
  * Where a context is missing it says why and ends with SUITE_SKIPPED. Every picture that is rendered here must have
@@ -53,6 +54,12 @@ void suite_ray(double origin[3], double direction[3], const tc_camera *camera, i
 /* Renders and checks what must hold of every picture (above). stats may be NULL. */
 tc_image *suite_render(tc_render_stats *stats, const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,
                        const tc_render_options *options);
+/* Another renderer of this back end; the test ends where it cannot be made. poison: what TETCAST_GL_POISON says while
+ * it is made, or NULL: what the environment says. */
+tc_renderer *suite_renderer(const char *poison);
+/* A picture by such a renderer, of which nothing is checked. stats may be NULL. */
+tc_image *suite_render_by(tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh, const tc_transfer *tf,
+                          const tc_camera *camera, const tc_render_options *options);
 /* The audit of the last picture, out [height][width]; the test ends where there is none. */
 void suite_audit(tc_audit_ray *out);
 tc_status suite_try_audit(tc_audit_ray *out, tc_error *err);

@@ -196,11 +196,9 @@ static void lost_rays_are_not_told_or_end_the_work(void **state)
     tc_image_destroy(&image);
     options = planes_options();
     options.audit = true;
-    const tc_renderer_options make = {.gl = suite_backend(), .driver = "pingpong"};
-    tc_renderer *renderer;
+    tc_renderer *renderer = suite_renderer(NULL);
     tc_render_stats stats;
     tc_error err = {0};
-    assert_int_equal(tc_renderer_create(&renderer, &make, NULL, &err), TC_OK);
     tc_status status = tc_render(&image, &stats, renderer, mesh, tf, &camera, &options, NULL, &err);
     suite_say("thin sheet: %lld of %lld rays lost, %d passes", (long long)stats.rays_lost, (long long)stats.rays,
               stats.passes);

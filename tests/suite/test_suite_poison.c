@@ -1,7 +1,6 @@
 /* test_suite_poison.c: what is in the GPU's memory before a frame never reaches the picture. Where the environment says
  * TETCAST_GL_POISON=1 every texture of the ray state holds NaN and every ray is locked before each frame, a new result
  * holds NaN, and NaN stands behind every uploaded array. For drivers that render with GL. */
-#define _GNU_SOURCE
 #include "suite.h"
 
 #include <stdio.h>
@@ -10,25 +9,13 @@
 
 enum { WIDTH = 61, HEIGHT = 47 };
 
-static tc_renderer *make_renderer(const char *poison)
-{
-    const tc_renderer_options options = {.gl = suite_backend(), .driver = "pingpong"};
-    tc_renderer *renderer;
-    tc_error err = {0};
-    setenv("TETCAST_GL_POISON", poison, 1);
-    if (tc_renderer_create(&renderer, &options, NULL, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    unsetenv("TETCAST_GL_POISON");
-    return renderer;
-}
-
 static tc_renderer *plain, *poisoned;
 
 static int set_up(void **state)
 {
     (void)state;
-    plain = make_renderer("0");
-    poisoned = make_renderer("1");
+    plain = suite_renderer("0");
+    poisoned = suite_renderer("1");
     return 0;
 }
 
@@ -40,23 +27,13 @@ static int tear_down(void **state)
     return 0;
 }
 
-static tc_image *render(tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh, const tc_transfer *tf,
-                        const tc_camera *camera, const tc_render_options *options)
-{
-    tc_image *image;
-    tc_error err = {0};
-    if (tc_render(&image, stats, renderer, mesh, tf, camera, options, NULL, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return image;
-}
-
 /* Both renderers give the same bits and the same counts. Gives the largest alpha. */
 static float expect_same(const char *what, const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera,
                          const tc_render_options *options)
 {
     tc_render_stats a_stats, b_stats;
-    tc_image *a = render(&a_stats, plain, mesh, tf, camera, options);
-    tc_image *b = render(&b_stats, poisoned, mesh, tf, camera, options);
+    tc_image *a = suite_render_by(&a_stats, plain, mesh, tf, camera, options);
+    tc_image *b = suite_render_by(&b_stats, poisoned, mesh, tf, camera, options);
     size_t n = 4 * (size_t)options->width * (size_t)options->height;
     float most = 0;
     for (size_t i = 0; i < n; i++)
@@ -193,8 +170,8 @@ static void points_of_no_cell_reach_the_picture(void **state)
     tc_transfer *tf = suite_benchmark(mesh[0]);
     tc_camera camera = suite_camera(mesh[0], 0.3, 0.5, 1, false);
     tc_render_options options = suite_options(WIDTH, HEIGHT);
-    tc_image *a = render(NULL, plain, mesh[0], tf, &camera, &options);
-    tc_image *b = render(NULL, poisoned, mesh[1], tf, &camera, &options);
+    tc_image *a = suite_render_by(NULL, plain, mesh[0], tf, &camera, &options);
+    tc_image *b = suite_render_by(NULL, poisoned, mesh[1], tf, &camera, &options);
     assert_memory_equal(a->rgba, b->rgba, sizeof(float) * 4 * WIDTH * HEIGHT);
     tc_image_destroy(&a);
     tc_image_destroy(&b);

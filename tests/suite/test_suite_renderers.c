@@ -34,31 +34,16 @@ static int tear_down(void **state)
     return 0;
 }
 
-static tc_renderer *make_renderer(void)
-{
-    const tc_renderer_options options = {.gl = suite_is_gpu() ? suite_backend() : NULL,
-                                         .driver = suite_is_gpu() ? "pingpong" : "reference"};
-    tc_renderer *renderer;
-    tc_error err = {0};
-    if (tc_renderer_create(&renderer, &options, NULL, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return renderer;
-}
-
 static tc_image *render(const scene *s, tc_renderer *renderer)
 {
-    tc_image *image;
-    tc_error err = {0};
-    if (tc_render(&image, NULL, renderer, s->mesh, s->tf, &s->camera, &s->options, NULL, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    return image;
+    return suite_render_by(NULL, renderer, s->mesh, s->tf, &s->camera, &s->options);
 }
 
 static void destroying_a_renderer_breaks_another(void **state)
 {
     const scene *s = *state;
     tc_image *before = suite_render(NULL, s->mesh, s->tf, &s->camera, &s->options);
-    tc_renderer *a = make_renderer(), *b = make_renderer();
+    tc_renderer *a = suite_renderer(NULL), *b = suite_renderer(NULL);
     tc_image *in_a = render(s, a), *in_b = render(s, b);
     assert_true(suite_difference(before, in_a) <= 0 && suite_difference(before, in_b) <= 0);
     tc_image_destroy(&in_a);
@@ -67,7 +52,7 @@ static void destroying_a_renderer_breaks_another(void **state)
     in_b = render(s, b);
     assert_true(suite_difference(before, in_b) <= 0);
     tc_image_destroy(&in_b);
-    a = make_renderer();
+    a = suite_renderer(NULL);
     tc_renderer_destroy(&a); /* a newer one that never rendered */
     in_b = render(s, b);
     assert_true(suite_difference(before, in_b) <= 0);
@@ -112,7 +97,7 @@ static void expect_refusal(const scene *s, tc_renderer *renderer, const tc_rende
 static void an_unknown_integrator_is_taken(void **state)
 {
     const scene *s = *state;
-    tc_renderer *renderer = make_renderer();
+    tc_renderer *renderer = suite_renderer(NULL);
     tc_render_options options = s->options;
     options.integrator = (tc_integrator)4;
     expect_refusal(s, renderer, &options, (const char *const[]){"integrator 4", "3 (exact)", "2 (integral)"});
@@ -124,7 +109,7 @@ static void an_unknown_integrator_is_taken(void **state)
 static void an_unknown_table_format_is_taken(void **state)
 {
     const scene *s = *state;
-    tc_renderer *renderer = make_renderer();
+    tc_renderer *renderer = suite_renderer(NULL);
     tc_render_options options = s->options;
     options.integrator = TC_INTEGRATOR_TABLE;
     options.table_format = (tc_table_format)24;
@@ -138,7 +123,7 @@ static void a_z_update_interval_out_of_range_is_taken(void **state)
 {
     static const int wrong[] = {-2, -2147483647 - 1, 65537, 2147483647}, right[] = {-1, 0, 1, 3, 65536};
     const scene *s = *state;
-    tc_renderer *renderer = make_renderer();
+    tc_renderer *renderer = suite_renderer(NULL);
     tc_render_options options = s->options;
     for (int i = 0; i < 4; i++) {
         options.z_update_every = wrong[i];

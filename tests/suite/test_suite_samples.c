@@ -1,7 +1,6 @@
 /* test_suite_samples.c: pictures of several rays a pixel are the means of those rays; adaptive ones are, pixel by
  * pixel, that of 4 or that of 16; the bits of what rays carry from pass to pass are as asked for, and no memory grows.
  */
-#define _GNU_SOURCE
 #include "suite.h"
 
 #include <stdio.h>
@@ -75,44 +74,56 @@ static void expect_mean(const char *what, const tc_image *image, const tc_image 
         fail_msg("%s: %d pixels are not the mean of %d rays", what, wrong, n * n);
 }
 
-static void a_pixel_is_not_the_mean_of_its_rays(void **state)
+static void expect_means(const char *what, const tc_mesh *mesh, const tc_transfer *tf, const tc_camera *camera)
 {
-    (void)state;
+    tc_render_options options = suite_options(WIDTH, HEIGHT), big_options = options;
+    tc_render_stats one, stats, big_stats;
+    tc_image *single = suite_render(&one, mesh, tf, camera, &options);
+    assert_int_equal(one.samples, 1);
+    for (int edge = 2; edge <= 4; edge += 2) {
+        options.samples = edge * edge;
+        big_options.width = WIDTH * edge;
+        big_options.height = HEIGHT * edge;
+        tc_image *image = suite_render(&stats, mesh, tf, camera, &options);
+        tc_image *big = suite_render(&big_stats, mesh, tf, camera, &big_options);
+        expect_mean(what, image, big, edge);
+        assert_int_equal(stats.samples, edge * edge);
+        assert_true(suite_difference(image, single) > 0.01);
+        if (suite_is_gpu()) { /* sums over all frames */
+            assert_in_range(stats.rays - big_stats.rays + 1, 0, 2);
+            assert_true(stats.passes >= edge * edge * 2 && stats.layers >= one.layers);
+            assert_true(stats.gpu_bytes_state == one.gpu_bytes_state); /* whatever the number of rays */
+            assert_int_equal(stats.refined, -1);
+        }
+        tc_image_destroy(&image);
+        tc_image_destroy(&big);
+    }
+    tc_image_destroy(&single);
+}
+
+/* Every view of a mesh with gaps, which are convexified or peeled. */
+static void expect_of_views(void (*expect)(const char *what, const tc_mesh *mesh, const tc_transfer *tf,
+                                           const tc_camera *camera))
+{
     static const tc_reentry ways[] = {TC_REENTRY_CONVEXIFY, TC_REENTRY_PEEL};
     for (int way = 0; way < (suite_is_gpu() ? 2 : 1); way++) {
         tc_mesh *mesh = suite_synth("heatsink", 3000, ways[way]);
         tc_transfer *tf = suite_benchmark(mesh);
         for (int v = 0; v < N_VIEWS; v++) {
+            char what[96];
             tc_camera camera = make_camera(mesh, (view)v);
-            tc_render_options options = suite_options(WIDTH, HEIGHT), big_options = options;
-            tc_render_stats one, stats, big_stats;
-            tc_image *single = suite_render(&one, mesh, tf, &camera, &options);
-            assert_int_equal(one.samples, 1);
-            for (int edge = 2; edge <= 4; edge += 2) {
-                char what[96];
-                snprintf(what, sizeof what, "%s, %s", way ? "peeled" : "convexified", view_name[v]);
-                options.samples = edge * edge;
-                big_options.width = WIDTH * edge;
-                big_options.height = HEIGHT * edge;
-                tc_image *image = suite_render(&stats, mesh, tf, &camera, &options);
-                tc_image *big = suite_render(&big_stats, mesh, tf, &camera, &big_options);
-                expect_mean(what, image, big, edge);
-                assert_int_equal(stats.samples, edge * edge);
-                assert_true(suite_difference(image, single) > 0.01);
-                if (suite_is_gpu()) { /* sums over all frames */
-                    assert_in_range(stats.rays - big_stats.rays + 1, 0, 2);
-                    assert_true(stats.passes >= edge * edge * 2 && stats.layers >= one.layers);
-                    assert_true(stats.gpu_bytes_state == one.gpu_bytes_state); /* whatever the number of rays */
-                    assert_int_equal(stats.refined, -1);
-                }
-                tc_image_destroy(&image);
-                tc_image_destroy(&big);
-            }
-            tc_image_destroy(&single);
+            snprintf(what, sizeof what, "%s, %s", way ? "peeled" : "convexified", view_name[v]);
+            expect(what, mesh, tf, &camera);
         }
         tc_transfer_destroy(&tf);
         tc_mesh_destroy(&mesh);
     }
+}
+
+static void a_pixel_is_not_the_mean_of_its_rays(void **state)
+{
+    (void)state;
+    expect_of_views(expect_means);
 }
 
 /* Each pixel of the adaptive picture has the bits of the picture of 4 or of that of 16 rays, as its first rays demand.
@@ -151,7 +162,7 @@ static void expect_adaptive(const char *what, const tc_mesh *mesh, const tc_tran
             sure += spread > LIMIT + SURE;
             covered += many->rgba[at + 3] > 0;
         }
-    suite_say("%s: %d of %d covered pixels are refined", what, refined, covered);
+    suite_say("adaptive, %s: %d of %d covered pixels are refined", what, refined, covered);
     assert_true(refined > 0 && refined < covered);
     assert_int_equal(stats.samples, TC_SAMPLES_ADAPTIVE);
     assert_int_equal(stats.rays_lost, 0);
@@ -170,19 +181,7 @@ static void expect_adaptive(const char *what, const tc_mesh *mesh, const tc_tran
 static void an_adaptive_pixel_is_neither_that_of_4_nor_of_16_rays(void **state)
 {
     (void)state;
-    static const tc_reentry ways[] = {TC_REENTRY_CONVEXIFY, TC_REENTRY_PEEL};
-    for (int way = 0; way < (suite_is_gpu() ? 2 : 1); way++) {
-        tc_mesh *mesh = suite_synth("heatsink", 3000, ways[way]);
-        tc_transfer *tf = suite_benchmark(mesh);
-        for (int v = 0; v < N_VIEWS; v++) {
-            char what[96];
-            tc_camera camera = make_camera(mesh, (view)v);
-            snprintf(what, sizeof what, "adaptive, %s, %s", way ? "peeled" : "convexified", view_name[v]);
-            expect_adaptive(what, mesh, tf, &camera);
-        }
-        tc_transfer_destroy(&tf);
-        tc_mesh_destroy(&mesh);
-    }
+    expect_of_views(expect_adaptive);
 }
 
 /* Nothing is seen, and nothing is refined; a mesh that fills the picture without an edge is not refined either. */
@@ -376,18 +375,6 @@ static void state_has_other_bits_than_asked_for(void **state)
     tc_mesh_destroy(&mesh);
 }
 
-static tc_renderer *make_renderer(const char *poison)
-{
-    const tc_renderer_options options = {.gl = suite_backend(), .driver = "pingpong"};
-    tc_renderer *renderer;
-    tc_error err = {0};
-    setenv("TETCAST_GL_POISON", poison, 1);
-    if (tc_renderer_create(&renderer, &options, NULL, &err) != TC_OK)
-        fail_msg("%s", err.text);
-    unsetenv("TETCAST_GL_POISON");
-    return renderer;
-}
-
 /* As test_suite_poison.c, for what several rays a pixel need besides. */
 static void what_was_in_memory_reaches_the_picture(void **state)
 {
@@ -396,7 +383,7 @@ static void what_was_in_memory_reaches_the_picture(void **state)
         skip();
     static const tc_reentry ways[] = {TC_REENTRY_CONVEXIFY, TC_REENTRY_PEEL};
     static const int samples[] = {16, TC_SAMPLES_ADAPTIVE, 1, 4, TC_SAMPLES_ADAPTIVE};
-    tc_renderer *renderer[2] = {make_renderer("0"), make_renderer("1")};
+    tc_renderer *renderer[2] = {suite_renderer("0"), suite_renderer("1")};
     for (int way = 0; way < 2; way++) {
         tc_mesh *mesh = suite_synth("heatsink", 3000, ways[way]);
         tc_transfer *tf = suite_benchmark(mesh);
@@ -405,13 +392,11 @@ static void what_was_in_memory_reaches_the_picture(void **state)
             tc_render_options options = suite_options(WIDTH, HEIGHT);
             tc_render_stats stats[2];
             tc_image *image[2];
-            tc_error err = {0};
             options.samples = samples[i];
             options.state_format = i % 2 ? TC_STATE_16F : TC_STATE_32F;
             options.count = i > 1;
             for (int k = 0; k < 2; k++)
-                if (tc_render(&image[k], &stats[k], renderer[k], mesh, tf, &camera, &options, NULL, &err) != TC_OK)
-                    fail_msg("%s", err.text);
+                image[k] = suite_render_by(&stats[k], renderer[k], mesh, tf, &camera, &options);
             assert_memory_equal(image[0]->rgba, image[1]->rgba, sizeof(float) * 4 * WIDTH * HEIGHT);
             assert_int_equal(stats[0].rays, stats[1].rays);
             assert_int_equal(stats[0].refined, stats[1].refined);
