@@ -78,29 +78,36 @@ static void missing_files_are_not_named(void **state)
     }
 }
 
-/* The context and a cache; false where it is missing. */
-static bool open_context(tc_context **context, tc_program_cache **cache, const char *name)
+typedef struct fixture {
+    tc_context *context;
+    tc_program_cache *cache;
+} fixture;
+
+/* False where the context is missing. */
+static bool open_fixture(fixture *f, const char *name)
 {
     tc_error err = {0};
-    if (!gl_open(context, name))
+    if (!gl_open(&f->context, name))
         return false;
-    assert_int_equal(tc_program_cache_create(cache, &(*context)->gl, &err), TC_OK);
+    assert_int_equal(tc_program_cache_create(&f->cache, &f->context->gl, &err), TC_OK);
     return true;
 }
 
-/* The first context that there is; the test is skipped where there is none. */
-static void open_any(tc_context **context, tc_program_cache **cache)
+/* In the first context that there is; the test is skipped where there is none. */
+static fixture open_any(void)
 {
+    fixture f = {0};
     for (int c = 0; c < GL_CONTEXTS; c++)
-        if (open_context(context, cache, gl_context_names[c]))
-            return;
+        if (open_fixture(&f, gl_context_names[c]))
+            return f;
     skip();
+    return f;
 }
 
-static void close_context(tc_context **context, tc_program_cache **cache)
+static void close_fixture(fixture *f)
 {
-    tc_program_cache_destroy(cache);
-    tc_context_destroy(context);
+    tc_program_cache_destroy(&f->cache);
+    tc_context_destroy(&f->context);
 }
 
 static void compilers_errors_name_another_line(void **state)
@@ -117,9 +124,8 @@ static void compilers_errors_name_another_line(void **state)
     };
     bool any = false;
     for (int c = 0; c < GL_CONTEXTS; c++) {
-        tc_context *context;
-        tc_program_cache *cache;
-        if (!open_context(&context, &cache, gl_context_names[c]))
+        fixture one;
+        if (!open_fixture(&one, gl_context_names[c]))
             continue;
         any = true;
         for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
@@ -127,13 +133,13 @@ static void compilers_errors_name_another_line(void **state)
                                               "integrator.glsl=integrate_table.glsl"};
             GLuint program;
             tc_error err = {0};
-            assert_int_equal(tc_program_get(&program, cache, &source, &err), TC_E_GL);
+            assert_int_equal(tc_program_get(&program, one.cache, &source, &err), TC_E_GL);
             char expected[96];
             snprintf(expected, sizeof expected, "shader %s:%d:", breaks[i].file, line_of(breaks[i].file, breaks[i].at));
             if (!strstr(err.text, expected))
                 fail_msg("no \"%s\" in: %s", expected, err.text);
         }
-        close_context(&context, &cache);
+        close_fixture(&one);
     }
     if (!any)
         skip();
@@ -203,10 +209,8 @@ static void expect_uniform(const tc_gl *gl, GLuint program, const char *name, bo
 static void a_program_holds_what_its_scene_does_not_need(void **state)
 {
     (void)state;
-    tc_context *context;
-    tc_program_cache *cache;
-    open_any(&context, &cache);
-    const tc_gl *gl = &context->gl;
+    fixture o = open_any();
+    const tc_gl *gl = &o.context->gl;
     static const int each[] = {0,
                                IMAGINARY,
                                PEEL,
@@ -228,7 +232,7 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
         int f = each[i];
         tc_frame frame = frame_of(f);
         tc_job job = job_of(f, &frame);
-        GLuint march = get(cache, "screen.vert", "march.frag", &job);
+        GLuint march = get(o.cache, "screen.vert", "march.frag", &job);
         expect_uniform(gl, march, "mesh_real", f & IMAGINARY, f);
         expect_uniform(gl, march, "mesh_cell_scalar", f & CELLS, f);
         expect_uniform(gl, march, "state_steps", f & COUNT, f);
@@ -239,7 +243,7 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
         expect_uniform(gl, march, "ray_near", f & INSIDE, f);
         expect_uniform(gl, march, "ray_far", f & FAR, f);
         expect_uniform(gl, march, "sample_mask", false, f);
-        GLuint first = get(cache, "first_hit.vert", "first_hit.frag", &job);
+        GLuint first = get(o.cache, "first_hit.vert", "first_hit.frag", &job);
         expect_uniform(gl, first, "sample_mask", false, f);
         expect_uniform(gl, first, "peel_key", f & PEEL, f);
         expect_uniform(gl, first, "ray_near", !(f & INSIDE), f); /* entries behind an eye outside */
@@ -247,10 +251,10 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
         expect_uniform(gl, first, "mesh_real", false, f);
         expect_uniform(gl, first, "tf_table", false, f);
         expect_uniform(gl, first, "tf_nodes", false, f);
-        assert_int_equal(get(cache, "screen.vert", "march.frag", &job), march); /* equal text, the same program */
-        get(cache, "screen.vert", "resolve.frag", &job);
+        assert_int_equal(get(o.cache, "screen.vert", "march.frag", &job), march); /* equal text, the same program */
+        get(o.cache, "screen.vert", "resolve.frag", &job);
     }
-    close_context(&context, &cache);
+    close_fixture(&o);
 }
 
 /* The paper's table needs no means of the function, that of the colour's drift needs them, and steps only where there
@@ -258,31 +262,29 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
 static void a_table_fetches_what_the_other_kind_has(void **state)
 {
     (void)state;
-    tc_context *context;
-    tc_program_cache *cache;
-    open_any(&context, &cache);
-    const tc_gl *gl = &context->gl;
+    fixture o = open_any();
+    const tc_gl *gl = &o.context->gl;
     for (int f = 0; f < N_FEATURES; f += 13) {
         tc_frame frame = frame_of(f);
         tc_job job = job_of(f | TABLE, &frame);
         char defines[512];
-        GLuint paper = get(cache, "screen.vert", "march.frag", &job);
+        GLuint paper = get(o.cache, "screen.vert", "march.frag", &job);
         expect_uniform(gl, paper, "tf_table", true, f);
         expect_uniform(gl, paper, "tf_cells", false, f);
         job.drift = true;
         tc_job_defines(defines, sizeof defines, &job);
         assert_int_equal(count(defines, "COLOR_HOLDS_DEPTH"), 1);
         assert_int_equal(count(defines, "TF_STEPS"), 0);
-        GLuint drift = get(cache, "screen.vert", "march.frag", &job);
+        GLuint drift = get(o.cache, "screen.vert", "march.frag", &job);
         expect_uniform(gl, drift, "tf_table", true, f);
         expect_uniform(gl, drift, "tf_cells", true, f);
         expect_uniform(gl, drift, "tf_nodes", false, f);
         job.steps = job.software = true;
         tc_job_defines(defines, sizeof defines, &job);
         assert_int_equal(count(defines, "TF_STEPS"), 1);
-        assert_int_not_equal(get(cache, "screen.vert", "march.frag", &job), drift);
+        assert_int_not_equal(get(o.cache, "screen.vert", "march.frag", &job), drift);
     }
-    close_context(&context, &cache);
+    close_fixture(&o);
 }
 
 /* Either stepper's program holds nothing of the other's. */
@@ -302,17 +304,15 @@ static void the_paper_s_stepper_is_where_it_is_not_asked_for(void **state)
     assert_int_equal(count(text, "planes_"), 0);
     free(text);
 
-    tc_context *context;
-    tc_program_cache *cache;
-    open_any(&context, &cache);
-    const tc_gl *gl = &context->gl;
+    fixture o = open_any();
+    const tc_gl *gl = &o.context->gl;
     for (int f = 0; f < N_FEATURES; f += 13) {
         tc_frame frame = frame_of(f);
         tc_job job = job_of(f, &frame);
-        GLuint signs = get(cache, "screen.vert", "march.frag", &job);
-        GLuint first = get(cache, "first_hit.vert", "first_hit.frag", &job);
+        GLuint signs = get(o.cache, "screen.vert", "march.frag", &job);
+        GLuint first = get(o.cache, "first_hit.vert", "first_hit.frag", &job);
         job.planes = true;
-        GLuint planes = get(cache, "screen.vert", "march.frag", &job);
+        GLuint planes = get(o.cache, "screen.vert", "march.frag", &job);
         for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
             expect_uniform(gl, signs, textures[i], false, f);
             expect_uniform(gl, first, textures[i], false, f);
@@ -322,10 +322,10 @@ static void the_paper_s_stepper_is_where_it_is_not_asked_for(void **state)
         expect_uniform(gl, first, "mesh_cells", false, f); /* so that a scene with planes needs no records */
         expect_uniform(gl, planes, "mesh_cells", false, f);
         job.nonfinite = job.has_nan_color = job.audit = job.count = job.software = true;
-        get(cache, "screen.vert", "march.frag", &job);
+        get(o.cache, "screen.vert", "march.frag", &job);
     }
-    get(cache, "screen.vert", "lost.frag", &(tc_job){.frame = &(tc_frame){.ahead = true}});
-    close_context(&context, &cache);
+    get(o.cache, "screen.vert", "lost.frag", &(tc_job){.frame = &(tc_frame){.ahead = true}});
+    close_fixture(&o);
 }
 
 /* Only the first hits of marked pixels know of marks. */
@@ -346,15 +346,13 @@ static void marks_are_read_where_every_pixel_has_a_ray(void **state)
         if (strcmp(f->name, "first_hit.frag") != 0 &&
             (strstr(f->text, "SAMPLE_MASK") || strstr(f->text, "sample_mask")))
             fail_msg("%s knows of marks", f->name);
-    tc_context *context;
-    tc_program_cache *cache;
-    open_any(&context, &cache);
+    fixture o = open_any();
     for (int peel = 0; peel < 2; peel++) {
         const tc_program_source source = {"first_hit.vert", "first_hit.frag",
                                           peel ? "#define SAMPLE_MASK\n#define PEEL\n" : "#define SAMPLE_MASK\n", NULL};
-        expect_uniform(&context->gl, get_source(cache, &source), "sample_mask", true, peel);
+        expect_uniform(&o.context->gl, get_source(o.cache, &source), "sample_mask", true, peel);
     }
-    close_context(&context, &cache);
+    close_fixture(&o);
 }
 
 static void a_plain_scene_defines_anything(void **state)
@@ -375,10 +373,8 @@ static void a_plain_scene_defines_anything(void **state)
 static void some_shader_does_not_compile(void **state)
 {
     (void)state;
-    tc_context *context;
-    tc_program_cache *cache;
-    open_any(&context, &cache);
-    const tc_gl *gl = &context->gl;
+    fixture o = open_any();
+    const tc_gl *gl = &o.context->gl;
     for (int f = 0; f < N_FEATURES; f += 13) { /* odd steps meet every pair of features */
         tc_frame frame = frame_of(f);
         for (int way = 0; way < 4; way++) {
@@ -391,22 +387,22 @@ static void some_shader_does_not_compile(void **state)
             job.dense = f % 2;
             job.nonfinite = job.nonfinite || way & 1;
             job.software = way & 2;
-            get(cache, "screen.vert", "march.frag", &job);
-            get(cache, "first_hit.vert", "first_hit.frag", &job);
+            get(o.cache, "screen.vert", "march.frag", &job);
+            get(o.cache, "first_hit.vert", "first_hit.frag", &job);
         }
     }
     const tc_frame outside = {.clip_near = false};
     const tc_job none = {.frame = &outside};
-    get(cache, "screen.vert", "lock.frag", &none);
-    get(cache, "screen.vert", "copy.frag", &none);
-    get(cache, "screen.vert", "mask.frag", &none);
-    get(cache, "screen.vert", "spread.frag", &none);
+    get(o.cache, "screen.vert", "lock.frag", &none);
+    get(o.cache, "screen.vert", "copy.frag", &none);
+    get(o.cache, "screen.vert", "mask.frag", &none);
+    get(o.cache, "screen.vert", "spread.frag", &none);
     static const char *const shares[] = {"#define SHARE\n", "#define SHARE\n#define COLOR_HOLDS_DEPTH\n"};
     for (int i = 0; i < 2; i++) {
         const tc_program_source source = {"screen.vert", "resolve.frag", shares[i], NULL};
-        expect_uniform(gl, get_source(cache, &source), "share", true, i);
+        expect_uniform(gl, get_source(o.cache, &source), "share", true, i);
     }
-    close_context(&context, &cache);
+    close_fixture(&o);
 }
 
 int main(void)
