@@ -20,8 +20,8 @@ static const double UNSPLIT_ERROR = 1e-3;                                /* a pi
 static const double UNSPLIT_SHARE_WILD = 0.002, UNSPLIT_SHARE = 0.00125; /* as drifts() reckons */
 static const double DENSE_DEPTH = 0.99; /* of an edge, at the largest extinction: within 1 pieces.glsl cuts no piece */
 /* Knots crossed by a segment up to which pieces are not slower than running integrals: where these leave nearly every
- * segment to pieces (VARIED), or some (HARD); where none (FEW) pieces are up to a third slower, and more exact. */
-static const double CROSSED_VARIED = 1, CROSSED_HARD = 0.5, CROSSED_FEW = 0.25;
+ * segment to pieces (VARIED), some (HARD), or none (FEW). */
+static const double CROSSED_VARIED = 1, CROSSED_HARD = 0.5, CROSSED_FEW = 0.02;
 /* Of a cell's range, by a segment: most lie askew, or cut a corner. 0.06 to 0.18 on five meshes. */
 static const double CROSSED_PART = 0.15;
 static const double BIN_MARGIN = 1e-3; /* of a bin */

@@ -67,7 +67,7 @@ static void node_value(double out[4], const tc_transfer *tf, size_t piece, doubl
 }
 
 static const double INTERVALS_A_RISE = 64; /* over which the function may go from none to all */
-static const double NO_STEP = 1e-4;        /* a change that may stand as a step */
+static const double NO_STEP = 4e-4;        /* a change that may stand as a step: 1/10 of an 8-bit one */
 static const double CLEAR_SHARE = 0.02;    /* of the span: where that much is clear it is to be clear exactly */
 static const double BESIDE = 1.5;          /* intervals beside a steep rise in which the nearest node may misjudge it */
 
