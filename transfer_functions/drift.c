@@ -12,38 +12,31 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "transfer_functions/half.h"
 #include "transfer_functions/means.h"
+#include "transfer_functions/table_frame.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef float quad __attribute__((vector_size(16))); /* r, g, b and one more */
-
 static const int OCTAVES = 8;                /* below length_max, if there are entries enough */
 static const double SERIES_DEPTH = 1.0 / 16; /* optical depth up to which the series is used */
 
-/* What does not depend on length, for each pair of s_front, s_back; s_front runs fastest. */
+/* What does not depend on length, for each pair of s_front, s_back; s_front runs fastest.
+ *   step   M2 - M1, v2
+ *   term   series of the drift in length / length_max; fourth of term 0 and 1: optical depth of either part at 1 */
 typedef struct pair {
-    quad step;    /* M2 - M1, v2 */
-    quad term[3]; /* series of the drift in length / length_max; fourth of term 0 and 1: optical depth of either part at
-                     1 */
+    tc_quad step, term[3];
 } pair;
 
 typedef struct build {
-    const tc_table_options *options;
-    tc_table *table;
-    tc_segments segments;
-    size_t n_front, n_back;
-    int octave, extra; /* extra: doublings before the table's first slices */
-    double unit;       /* of length, as a share of length_max */
-    int *node_front, *node_back;
-    size_t *front_node;
+    tc_table_frame frame; /* its segments have length_max */
+    int octave, extra;    /* extra: doublings before the table's first slices */
+    double unit;          /* of length, as a share of length_max */
     tc_cumulative cumulative;
     pair *pair;                /* [n_back][n_front] */
     tc_segment_series *series; /* [threads][n_node] */
-    quad *slice;               /* [threads][2][n_back][n_front] */
+    tc_quad *slice;            /* [threads][2][n_back][n_front] */
     float *opacity;            /* [threads][2][n_back][n_front] of both parts */
 } build;
 
@@ -69,19 +62,6 @@ static size_t entry_of(size_t length, size_t octave)
     return entry + length;
 }
 
-static void store_row(const build *job, size_t slice, size_t back, const quad *row)
-{
-    const size_t n = 4 * job->n_front, at = n * (back + job->n_back * slice);
-    const float *value = (const float *)row;
-    if (job->table->format == TC_TABLE_32F) {
-        memcpy((float *)job->table->rgba + at, value, n * sizeof *value);
-        return;
-    }
-    uint16_t *restrict out = (uint16_t *)job->table->rgba + at;
-    for (size_t i = 0; i < n; i++)
-        out[i] = tc_half_of(value[i]);
-}
-
 /* ----------------------------------------------------------------------------------------------------------- means */
 
 /* Mean colour and mean extinction between two places whose integrals are given. */
@@ -96,16 +76,17 @@ static void mean_between(double out[4], const double near[4], const double far[4
 /* One row of pairs: `front` fixed, for base_rows. */
 static void pair_row(build *job, size_t front, const tc_segment_series *series)
 {
-    const tc_segments *s = &job->segments;
-    const size_t node = job->front_node[front];
+    const tc_table_frame *frame = &job->frame;
+    const tc_segments *s = &frame->segments;
+    const size_t node = frame->front_node[front];
     size_t hint[2] = {0, 0};
     double here[4];
     tc_cumulative_at(here, &job->cumulative, s->x[node], &hint[0]);
     for (size_t i = 0; i < s->n_node; i++) {
-        if (job->node_back[i] < 0)
+        if (frame->node_back[i] < 0)
             continue;
         const tc_segment_series *d = &series[i];
-        pair *out = &job->pair[(size_t)job->node_back[i] * job->n_front + front];
+        pair *out = &job->pair[(size_t)frame->node_back[i] * frame->n_front + front];
         double first[4] = {0, 0, 0, d->depth}, second[4] = {0, 0, 0, d->depth};
         if (i != node) {
             double middle[4], there[4];
@@ -125,7 +106,7 @@ static void pair_row(build *job, size_t front, const tc_segment_series *series)
             out->step[c] = c < 3 && first[3] > 0 && second[3] > 0 ? (float)(second[c] - first[c]) : 0;
         out->step[3] = depth > 0 ? (float)(second[3] / depth) : 0;
         for (int k = 0; k < 3; k++)
-            out->term[k] = (quad){(float)d->term[k][0], (float)d->term[k][1], (float)d->term[k][2], 0};
+            out->term[k] = (tc_quad){(float)d->term[k][0], (float)d->term[k][1], (float)d->term[k][2], 0};
         out->term[0][3] = (float)first[3];
         out->term[1][3] = (float)second[3];
     }
@@ -134,9 +115,10 @@ static void pair_row(build *job, size_t front, const tc_segment_series *series)
 static void base_rows(void *context, size_t begin, size_t end, int worker)
 {
     build *job = context;
-    tc_segment_series *series = job->series + job->segments.n_node * (size_t)worker;
+    const tc_table_frame *frame = &job->frame;
+    tc_segment_series *series = job->series + frame->n_node * (size_t)worker;
     for (size_t front = begin; front < end; front++) {
-        tc_segments_series(series, &job->segments, job->front_node[front]);
+        tc_segments_series(series, &frame->segments, frame->front_node[front]);
         pair_row(job, front, series);
     }
 }
@@ -144,9 +126,9 @@ static void base_rows(void *context, size_t begin, size_t end, int worker)
 /* ---------------------------------------------------------------------------------------------------------- chains */
 
 /* Drift at a short length, and the opacity of the parts that make up the double of it. */
-static void begin_chain(quad *restrict out, float *restrict a1, float *restrict a2, const build *job, float length)
+static void begin_chain(tc_quad *restrict out, float *restrict a1, float *restrict a2, const build *job, float length)
 {
-    const size_t n = job->n_front * job->n_back;
+    const size_t n = job->frame.n_front * job->frame.n_back;
     for (size_t i = 0; i < n; i++) {
         const pair *p = &job->pair[i];
         out[i] = length * (p->term[0] + length * (p->term[1] + length * p->term[2]));
@@ -158,14 +140,14 @@ static void begin_chain(quad *restrict out, float *restrict a1, float *restrict 
 }
 
 /* One row (s_back) of the slice of twice the length. */
-static void double_row(quad *restrict out, float *restrict a1, float *restrict a2, const quad *half, const build *job,
-                       size_t back)
+static void double_row(tc_quad *restrict out, float *restrict a1, float *restrict a2, const tc_quad *half,
+                       const build *job, size_t back)
 {
-    const size_t n = job->n_front, last = job->n_back - 1;
+    const size_t n = job->frame.n_front, last = job->frame.n_back - 1;
     const pair *p = job->pair + n * back;
     const double scale = 0.5 * (double)last / (double)(n - 1), offset = 0.5 * (double)back;
     const double middle = 0.5 * (double)back * (double)(n - 1) / (double)last;
-    const quad *row = half + n * back;
+    const tc_quad *row = half + n * back;
     for (size_t f = 0; f < n; f++) {
         /* the split point, in entries along s_back and s_front */
         const double place1 = (double)(int)f * scale + offset, place2 = 0.5 * (double)(int)f + middle;
@@ -173,8 +155,8 @@ static void double_row(quad *restrict out, float *restrict a1, float *restrict a
         i1 = i1 < (int)last ? i1 : (int)last - 1;
         i2 = i2 < (int)n - 1 ? i2 : (int)n - 2;
         const float t1 = (float)(place1 - i1), t2 = (float)(place2 - i2);
-        const quad *near = half + n * (size_t)i1 + f;
-        const quad d1 = near[0] + t1 * (near[n] - near[0]), d2 = row[i2] + t2 * (row[i2 + 1] - row[i2]);
+        const tc_quad *near = half + n * (size_t)i1 + f;
+        const tc_quad d1 = near[0] + t1 * (near[n] - near[0]), d2 = row[i2] + t2 * (row[i2 + 1] - row[i2]);
         const float rear = (1 - a1[f]) * a2[f], w2 = rear / (a1[f] + rear + 1e-37f);
         out[f] = d1 + w2 * (d2 - d1) + (w2 - p[f].step[3]) * p[f].step;
         out[f][3] = 0;
@@ -186,10 +168,11 @@ static void double_row(quad *restrict out, float *restrict a1, float *restrict a
 static void chains(void *context, size_t begin, size_t end, int worker)
 {
     const build *job = context;
-    const size_t n = job->n_front * job->n_back, octave = (size_t)job->octave;
-    quad *slice[2] = {job->slice + 2 * n * (size_t)worker, job->slice + n * (2 * (size_t)worker + 1)};
+    const tc_table_frame *frame = &job->frame;
+    const size_t row = frame->n_front, n = row * frame->n_back, octave = (size_t)job->octave;
+    tc_quad *slice[2] = {job->slice + 2 * n * (size_t)worker, job->slice + n * (2 * (size_t)worker + 1)};
     float *a1 = job->opacity + 2 * n * (size_t)worker, *a2 = a1 + n;
-    const size_t longest = (size_t)tc_drift_length(job->options->size[2] - 1, job->octave);
+    const size_t longest = (size_t)tc_drift_length((int)frame->n_length - 1, job->octave);
     for (size_t chain = begin; chain < end; chain++) {
         size_t length = 2 * chain + 1;
         if (length > longest)
@@ -198,16 +181,15 @@ static void chains(void *context, size_t begin, size_t end, int worker)
         for (int level = -job->extra;; level++) {
             if (level >= 0) {
                 const size_t entry = entry_of(length, octave);
-                for (size_t back = 0; back < job->n_back; back++)
-                    store_row(job, entry, back, slice[0] + job->n_front * back);
+                for (size_t back = 0; back < frame->n_back; back++)
+                    tc_table_frame_store(frame, entry, back, slice[0] + row * back);
                 if (2 * length > longest)
                     break;
                 length *= 2;
             }
-            for (size_t back = 0; back < job->n_back; back++)
-                double_row(slice[1] + job->n_front * back, a1 + job->n_front * back, a2 + job->n_front * back, slice[0],
-                           job, back);
-            quad *swap = slice[0];
+            for (size_t back = 0; back < frame->n_back; back++)
+                double_row(slice[1] + row * back, a1 + row * back, a2 + row * back, slice[0], job, back);
+            tc_quad *swap = slice[0];
             slice[0] = slice[1];
             slice[1] = swap;
         }
@@ -219,12 +201,13 @@ static void chains(void *context, size_t begin, size_t end, int worker)
 /* The slow way: as many segments as the entry's length has of length_max / (size[2] - 1), each integrated. */
 static void separate_slices(void *context, size_t begin, size_t end, int worker)
 {
-    build *job = context;
-    const size_t nf = job->n_front, nb = job->n_back;
-    quad *row = job->slice + 2 * nf * nb * (size_t)worker;
+    const build *job = context;
+    const tc_table_frame *frame = &job->frame;
+    const size_t nf = frame->n_front, nb = frame->n_back;
+    tc_quad *row = job->slice + 2 * nf * nb * (size_t)worker;
     for (size_t k = begin + 1; k < end + 1; k++) {
         const double length = tc_drift_length((int)k, job->octave) * job->unit;
-        const int parts = (int)ceil(length * (job->options->size[2] - 1) - 1e-9);
+        const int parts = (int)ceil(length * (double)(frame->n_length - 1) - 1e-9);
         for (size_t back = 0; back < nb; back++) {
             const double x_back = (double)back / (double)(nb - 1);
             size_t hint = 0, place = 0;
@@ -232,16 +215,9 @@ static void separate_slices(void *context, size_t begin, size_t end, int worker)
             tc_cumulative_at(there, &job->cumulative, x_back, &place);
             for (size_t front = 0; front < nf; front++) {
                 const double x_front = (double)front / (double)(nf - 1);
-                double sum[4] = {0, 0, 0, 0}, mean[4], here[4], pass = 1;
-                for (int i = 0; i < parts; i++) {
-                    double part[4];
-                    tc_segments_short(part, &job->segments, x_front + (x_back - x_front) * i / parts,
-                                      x_front + (x_back - x_front) * (i + 1) / parts, length / parts, &hint);
-                    for (int c = 0; c < 4; c++)
-                        sum[c] += pass * part[c];
-                    pass *= 1 - part[3];
-                }
-                row[front] = (quad){0, 0, 0, 0};
+                double sum[4], mean[4], here[4];
+                tc_table_frame_march(sum, frame, (const double[2]){x_front, x_back}, parts, length / parts, &hint);
+                row[front] = (tc_quad){0, 0, 0, 0};
                 if (x_front == x_back || !(sum[3] > 0))
                     continue;
                 tc_cumulative_at(here, &job->cumulative, x_front, &place);
@@ -249,30 +225,23 @@ static void separate_slices(void *context, size_t begin, size_t end, int worker)
                 for (int c = 0; c < 3; c++)
                     row[front][c] = (float)(sum[c] / sum[3] - mean[c]);
             }
-            store_row(job, k, back, row);
+            tc_table_frame_store(frame, k, back, row);
         }
     }
 }
 
 /* ------------------------------------------------------------------------------------------------------- the whole */
 
-static tc_status allocate(build *job, size_t threads, tc_error *err)
+static tc_status allocate(build *job, tc_error *err)
 {
-    const size_t nodes = job->n_front + job->n_back, n = job->n_front * job->n_back;
-    tc_table *table = job->table;
-    const size_t texel = table->format == TC_TABLE_16F ? 8 : 16, entries = n * (size_t)table->size[2]; /* <= 2^42 */
-    job->node_front = tc_alloc(nodes, sizeof *job->node_front);
-    job->node_back = tc_alloc(nodes, sizeof *job->node_back);
-    job->front_node = tc_alloc(job->n_front, sizeof *job->front_node);
+    const tc_table_frame *frame = &job->frame;
+    const size_t threads = (size_t)frame->threads, n = frame->n_front * frame->n_back;
     job->pair = tc_alloc(n, sizeof *job->pair);
-    job->series = tc_alloc(threads * nodes, sizeof *job->series);
+    job->series = tc_alloc(threads * frame->n_node, sizeof *job->series);
     job->slice = tc_alloc(2 * threads * n, sizeof *job->slice);
     job->opacity = tc_alloc(2 * threads * n, sizeof *job->opacity);
-    table->rgba = tc_alloc(entries, texel);
-    table->bytes = entries * texel;
-    if (!job->node_front || !job->node_back || !job->front_node || !job->pair || !job->series || !job->slice ||
-        !job->opacity || !table->rgba)
-        return tc_fail_memory(err, "the pre-integration table", entries, texel);
+    if (!job->pair || !job->series || !job->slice || !job->opacity)
+        return tc_fail_memory(err, "the table of colour drift", 2 * threads * n, sizeof *job->slice);
     return TC_OK;
 }
 
@@ -280,8 +249,10 @@ static tc_status allocate(build *job, size_t threads, tc_error *err)
 static int count_extra(const build *job)
 {
     double deepest = 0;
-    for (size_t i = 0; i < job->segments.n_piece; i++)
-        deepest = fmax(deepest, fmax(job->segments.piece[i].value[0][3], job->segments.piece[i].value[1][3]));
+    for (size_t i = 0; i < job->frame.segments.n_piece; i++) {
+        const tc_segment_piece *piece = &job->frame.segments.piece[i];
+        deepest = fmax(deepest, fmax(piece->value[0][3], piece->value[1][3]));
+    }
     deepest *= (2 * job->octave - 1) * job->unit;
     int extra = 0;
     for (; deepest > SERIES_DEPTH; deepest /= 2)
@@ -289,61 +260,46 @@ static int count_extra(const build *job)
     return extra;
 }
 
+static void fill(build *job)
+{
+    const tc_table_frame *frame = &job->frame;
+    if (frame->options->entry_by_entry) {
+        tc_parallel_for(frame->n_length - 1, 1, frame->threads, separate_slices, job);
+    } else {
+        job->extra = count_extra(job);
+        tc_parallel_for(frame->n_front, 4, frame->threads, base_rows, job);
+        tc_parallel_for((size_t)job->octave, 1, frame->threads, chains, job);
+    }
+    frame->table->base_error = SERIES_DEPTH * SERIES_DEPTH * SERIES_DEPTH * SERIES_DEPTH / 720 + 0x1p-24;
+}
+
 tc_status tc_drift_build(tc_table *out, const tc_transfer *tf, const tc_table_options *options, tc_error *err)
 {
-    memset(out, 0, sizeof *out);
-    tc_status status = tc_table_check(tf, options, err);
-    if (status == TC_OK && options->format == TC_TABLE_8)
-        status = tc_fail(err, TC_E_ARG, "a table of colour drift has 16 or 32 bits a channel, not 8");
-    if (status != TC_OK)
-        return status;
-    const double start = tc_now_ms();
-    const int threads = tc_threads(options->threads);
-    memcpy(out->size, options->size, sizeof out->size);
-    memcpy(out->span, options->span, sizeof out->span);
-    out->length_max = options->length_max;
-    out->format = options->format == TC_TABLE_AUTO ? TC_TABLE_16F : options->format;
-    build job = {.options = options,
-                 .table = out,
-                 .n_front = (size_t)options->size[0],
-                 .n_back = (size_t)options->size[1],
-                 .octave = tc_drift_octave(options->size[2])};
-    job.unit = 1 / tc_drift_length(options->size[2] - 1, job.octave);
-    status = allocate(&job, (size_t)threads, err);
-    double *x = status == TC_OK ? tc_alloc(job.n_front + job.n_back, sizeof *x) : NULL;
-    if (status == TC_OK && !x)
-        status = tc_fail_memory(err, "the pre-integration table", job.n_front + job.n_back, sizeof *x);
-    if (status != TC_OK)
-        goto done;
-    const size_t n_node = tc_table_axes(x, job.node_front, job.node_back, job.front_node, options->size);
-    status = tc_segments_build(&job.segments, tf, options->span, options->length_max, x, n_node, err);
-    if (status != TC_OK)
-        goto done;
-    status = tc_cumulative_build(&job.cumulative, &job.segments, err);
-    if (status != TC_OK)
-        goto done;
-    memset(out->rgba, 0, out->bytes / (size_t)options->size[2]); /* length 0 */
-    if (options->entry_by_entry) {
-        tc_parallel_for((size_t)options->size[2] - 1, 1, threads, separate_slices, &job);
-    } else {
-        job.extra = count_extra(&job);
-        tc_parallel_for(job.n_front, 4, threads, base_rows, &job);
-        tc_parallel_for((size_t)job.octave, 1, threads, chains, &job);
+    if (options->format == TC_TABLE_8) {
+        memset(out, 0, sizeof *out);
+        return tc_fail(err, TC_E_ARG, "a table of colour drift has 16 or 32 bits a channel, not 8");
     }
-    out->base_error = SERIES_DEPTH * SERIES_DEPTH * SERIES_DEPTH * SERIES_DEPTH / 720 + 0x1p-24;
+    build job = {.extra = 0};
+    tc_table_frame *frame = &job.frame;
+    tc_status status = tc_table_frame_begin(frame, out, tf, options, err);
+    if (status != TC_OK)
+        goto done;
+    job.octave = tc_drift_octave(options->size[2]);
+    job.unit = 1 / tc_drift_length(options->size[2] - 1, job.octave);
+    status = allocate(&job, err);
+    if (status != TC_OK)
+        goto done;
+    status = tc_segments_build(&frame->segments, tf, options->span, options->length_max, frame->x, frame->n_node, err);
+    if (status != TC_OK)
+        goto done;
+    status = tc_cumulative_build(&job.cumulative, &frame->segments, err);
+    if (status == TC_OK)
+        fill(&job);
 done:
-    free(x);
-    tc_segments_finish(&job.segments);
-    free(job.node_front);
-    free(job.node_back);
-    free(job.front_node);
     tc_cumulative_finish(&job.cumulative);
     free(job.pair);
     free(job.series);
     free(job.slice);
     free(job.opacity);
-    if (status != TC_OK)
-        tc_table_finish(out);
-    out->ms = status == TC_OK ? tc_now_ms() - start : 0;
-    return status;
+    return tc_table_frame_end(frame, status);
 }

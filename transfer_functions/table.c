@@ -16,69 +16,30 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "transfer_functions/half.h"
-#include "transfer_functions/segment.h"
+#include "transfer_functions/table_frame.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef float quad __attribute__((vector_size(16))); /* r, g, b, a */
-
 typedef struct build {
-    const tc_table_options *options;
-    tc_table *table;
-    tc_segments segments;
-    size_t n_front, n_back;
-    int *node_front, *node_back; /* [n_node] entry along s_front, s_back at a node, or -1 */
-    size_t *front_node;          /* [n_front] */
-    size_t n_level, level_now;   /* level j: length 2^j dl */
-    quad *level;                 /* [n_level][n_front][n_front]: s_front, then s_back, both at the places of s_front */
-    quad *first;                 /* [n_back][n_front]: base slice at the table's own s_back */
-    size_t n_history;            /* slices 1 .. n_history are front or rear parts of others */
-    quad *history;               /* [threads][n_history + 1][n_front]; the last row is for what is no part */
-    double (*value)[4];          /* [threads][n_node] */
-    double *error;               /* [threads] */
+    tc_table_frame frame;      /* its segments have the length dl */
+    size_t n_level, level_now; /* level j: length 2^j dl */
+    tc_quad *level;            /* [n_level][n_front][n_front]: s_front, then s_back, both at the places of s_front */
+    tc_quad *first;            /* [n_back][n_front]: base slice at the table's own s_back */
+    size_t n_history;          /* slices 1 .. n_history are front or rear parts of others */
+    tc_quad *history;          /* [threads][n_history + 1][n_front]; the last row is for what is no part */
+    double (*value)[4];        /* [threads][n_node] */
+    double *error;             /* [threads] */
 } build;
-
-/* --------------------------------------------------------------------------------------------------- out of floats */
-
-static void store_8(uint8_t *restrict out, const float *restrict value, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        out[i] = (uint8_t)(int)(value[i] * 255.0f + 0.5f);
-}
-
-static void store_16(uint16_t *restrict out, const float *restrict value, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        out[i] = tc_half_of(value[i]);
-}
-
-static void store_row(const build *job, size_t slice, size_t back, const quad *row)
-{
-    const size_t n = 4 * job->n_front, at = n * (back + job->n_back * slice);
-    const float *value = (const float *)row;
-    switch (job->table->format) {
-    case TC_TABLE_8:
-        store_8((uint8_t *)job->table->rgba + at, value, n);
-        break;
-    case TC_TABLE_16F:
-        store_16((uint16_t *)job->table->rgba + at, value, n);
-        break;
-    default:
-        memcpy((float *)job->table->rgba + at, value, n * sizeof *value);
-        break;
-    }
-}
 
 /* ------------------------------------------------------------------------------------------------------- recursion */
 
 /* Equations 5 and 6; opacity: that of the whole. */
-static inline quad blend(quad front, quad rear, float opacity)
+static inline tc_quad blend(tc_quad front, tc_quad rear, float opacity)
 {
     const float pass = 1 - front[3];
-    quad whole = front + pass * rear;
+    tc_quad whole = front + pass * rear;
     whole *= opacity / (whole[3] + 1e-37f);
     whole[3] = opacity;
     return whole;
@@ -88,15 +49,15 @@ static inline quad blend(quad front, quad rear, float opacity)
  *   split   fraction of the length that is the front part; its slice is `level`
  *   near, far   the row in the slices of the front and of the rear part's length
  *   back    s_back in units of the s_front spacing */
-static void blend_row(quad *restrict out, const quad *restrict level, const quad *restrict near,
-                      const quad *restrict far, size_t n, double split, double back)
+static void blend_row(tc_quad *restrict out, const tc_quad *restrict level, const tc_quad *restrict near,
+                      const tc_quad *restrict far, size_t n, double split, double back)
 {
     for (size_t f = 0; f < n; f++) {
         const double place = (double)f + (back - (double)f) * split;
         int p = (int)place;
         p = p > (int)n - 2 ? (int)n - 2 : p;
         const float t = (float)(place - p);
-        const quad *front = level + n * f + p, *rear = far + p;
+        const tc_quad *front = level + n * f + p, *rear = far + p;
         out[f] = blend(front[0] + t * (front[1] - front[0]), rear[0] + t * (rear[1] - rear[0]),
                        near[f][3] + (1 - near[f][3]) * far[f][3]);
     }
@@ -107,14 +68,14 @@ static void level_rows(void *context, size_t begin, size_t end, int worker)
 {
     (void)worker;
     const build *job = context;
-    const size_t n = job->n_front;
-    const quad *half = job->level + n * n * (job->level_now - 1);
-    quad *out = job->level + n * n * job->level_now;
+    const size_t n = job->frame.n_front;
+    const tc_quad *half = job->level + n * n * (job->level_now - 1);
+    tc_quad *out = job->level + n * n * job->level_now;
     for (size_t f = begin; f < end; f++)
         for (size_t b = 0; b < n; b++) {
             const size_t low = (f + b) / 2, high = (f + b + 1) / 2;
-            const quad front = 0.5f * (half[n * f + low] + half[n * f + high]);
-            const quad rear = 0.5f * (half[n * low + b] + half[n * high + b]);
+            const tc_quad front = 0.5f * (half[n * f + low] + half[n * f + high]);
+            const tc_quad rear = 0.5f * (half[n * low + b] + half[n * high + b]);
             const float opacity = half[n * f + b][3];
             out[n * f + b] = blend(front, rear, opacity + (1 - opacity) * opacity);
         }
@@ -123,22 +84,22 @@ static void level_rows(void *context, size_t begin, size_t end, int worker)
 static void incremental_rows(void *context, size_t begin, size_t end, int worker)
 {
     const build *job = context;
-    const size_t n = job->n_front;
-    quad *history = job->history + n * (job->n_history + 1) * (size_t)worker - n; /* slice 1 comes first */
+    const size_t n = job->frame.n_front;
+    tc_quad *history = job->history + n * (job->n_history + 1) * (size_t)worker - n; /* slice 1 comes first */
     for (size_t back = begin; back < end; back++) {
-        const double place = (double)back * (double)(n - 1) / (double)(job->n_back - 1);
+        const double place = (double)back * (double)(n - 1) / (double)(job->frame.n_back - 1);
         memcpy(history + n, job->first + n * back, n * sizeof *history);
-        store_row(job, 1, back, history + n);
+        tc_table_frame_store(&job->frame, 1, back, history + n);
         size_t j = 0, power = 1; /* the front part: 2^j < k */
-        for (size_t k = 2; k < (size_t)job->options->size[2]; k++) {
+        for (size_t k = 2; k < job->frame.n_length; k++) {
             if (k > 2 * power) {
                 power *= 2;
                 j++;
             }
-            quad *out = history + n * (k <= job->n_history ? k : job->n_history + 1);
+            tc_quad *out = history + n * (k <= job->n_history ? k : job->n_history + 1);
             blend_row(out, job->level + n * n * j, history + n * power, history + n * (k - power), n,
                       (double)power / (double)k, place);
-            store_row(job, k, back, out);
+            tc_table_frame_store(&job->frame, k, back, out);
         }
     }
 }
@@ -147,25 +108,19 @@ static void incremental_rows(void *context, size_t begin, size_t end, int worker
 static void separate_rows(void *context, size_t begin, size_t end, int worker)
 {
     const build *job = context;
-    quad *row = job->history + job->n_front * (job->n_history + 1) * (size_t)worker;
+    const tc_table_frame *frame = &job->frame;
+    tc_quad *row = job->history + frame->n_front * (job->n_history + 1) * (size_t)worker;
     for (size_t back = begin; back < end; back++)
-        for (int k = 1; k < job->options->size[2]; k++) {
-            const double x_back = (double)back / (double)(job->n_back - 1);
+        for (int k = 1; k < (int)frame->n_length; k++) {
+            const double x_back = (double)back / (double)(frame->n_back - 1);
             size_t hint = 0;
-            for (size_t front = 0; front < job->n_front; front++) {
-                const double x_front = (double)front / (double)(job->n_front - 1);
-                double sum[4] = {0, 0, 0, 0}, pass = 1;
-                for (int i = 0; i < k; i++) {
-                    double part[4];
-                    tc_segments_between(part, &job->segments, x_front + (x_back - x_front) * i / k,
-                                        x_front + (x_back - x_front) * (i + 1) / k, &hint);
-                    for (int c = 0; c < 4; c++)
-                        sum[c] += pass * part[c];
-                    pass *= 1 - part[3];
-                }
-                row[front] = (quad){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]};
+            for (size_t front = 0; front < frame->n_front; front++) {
+                const double x_front = (double)front / (double)(frame->n_front - 1);
+                double sum[4];
+                tc_table_frame_march(sum, frame, (const double[2]){x_front, x_back}, k, 1, &hint);
+                row[front] = (tc_quad){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]};
             }
-            store_row(job, (size_t)k, back, row);
+            tc_table_frame_store(frame, (size_t)k, back, row);
         }
 }
 
@@ -173,145 +128,77 @@ static void separate_rows(void *context, size_t begin, size_t end, int worker)
 
 static void base_rows(void *context, size_t begin, size_t end, int worker)
 {
-    build *job = context;
-    const size_t n = job->n_front, n_node = job->segments.n_node;
+    const build *job = context;
+    const tc_table_frame *frame = &job->frame;
+    const size_t n = frame->n_front, n_node = frame->n_node;
     double(*value)[4] = job->value + n_node * (size_t)worker;
     for (size_t front = begin; front < end; front++) {
-        tc_segments_row(value, &job->error[worker], &job->segments, job->front_node[front]);
+        tc_segments_row(value, &job->error[worker], &frame->segments, frame->front_node[front]);
         for (size_t i = 0; i < n_node; i++) {
-            const quad v = {(float)value[i][0], (float)value[i][1], (float)value[i][2], (float)value[i][3]};
-            if (job->node_front[i] >= 0)
-                job->level[n * front + (size_t)job->node_front[i]] = v;
-            if (job->node_back[i] >= 0)
-                job->first[n * (size_t)job->node_back[i] + front] = v;
+            const tc_quad v = {(float)value[i][0], (float)value[i][1], (float)value[i][2], (float)value[i][3]};
+            if (frame->node_front[i] >= 0)
+                job->level[n * front + (size_t)frame->node_front[i]] = v;
+            if (frame->node_back[i] >= 0)
+                job->first[n * (size_t)frame->node_back[i] + front] = v;
         }
     }
 }
 
-size_t tc_table_axes(double *x, int *node_front, int *node_back, size_t *front_node, const int size[3])
-{
-    size_t n = 0, front = 0, back = 0;
-    const size_t last_front = (size_t)size[0] - 1, last_back = (size_t)size[1] - 1;
-    while (front <= last_front || back <= last_back) {
-        const uint64_t a = (uint64_t)front * last_back, b = (uint64_t)back * last_front; /* front/last, back/last */
-        const bool take_front = front <= last_front && (back > last_back || a <= b);
-        const bool take_back = back <= last_back && (front > last_front || b <= a);
-        x[n] = take_front ? (double)front / (double)last_front : (double)back / (double)last_back;
-        node_front[n] = take_front ? (int)front : -1;
-        node_back[n] = take_back ? (int)back : -1;
-        if (take_front)
-            front_node[front++] = n;
-        back += take_back;
-        n++;
-    }
-    return n;
-}
-
 /* ------------------------------------------------------------------------------------------------------- the whole */
 
-tc_status tc_table_check(const tc_transfer *tf, const tc_table_options *options, tc_error *err)
+static tc_status allocate(build *job, tc_error *err)
 {
-    static const char *const axis[3] = {"s_front", "s_back", "length"};
-    if (!tf)
-        return tc_fail(err, TC_E_ARG, "a pre-integration table needs a transfer function");
-    for (int i = 0; i < 3; i++)
-        if (options->size[i] < 2 || options->size[i] > 16384)
-            return tc_fail(err, TC_E_ARG, "a pre-integration table cannot have %d entries along %s; take 2 to 16384",
-                           options->size[i], axis[i]);
-    const double width = options->span[1] - options->span[0];
-    if (!isfinite(width) || !(width > 0))
-        return tc_fail(err, TC_E_ARG,
-                       "a pre-integration table over the scalars %g to %g: the range must be finite and not empty",
-                       options->span[0], options->span[1]);
-    if (!isfinite(options->length_max) || !(options->length_max > 0))
-        return tc_fail(err, TC_E_ARG, "a pre-integration table for lengths up to %g: give a positive length",
-                       options->length_max);
-    if (options->format != TC_TABLE_AUTO && options->format != TC_TABLE_8 && options->format != TC_TABLE_16F &&
-        options->format != TC_TABLE_32F)
-        return tc_fail(err, TC_E_ARG, "no table format %d; take 8, 16 or 32 bits", (int)options->format);
+    const tc_table_frame *frame = &job->frame;
+    const size_t threads = (size_t)frame->threads, row = frame->n_front * sizeof(tc_quad);
+    job->level = tc_alloc(job->n_level * frame->n_front, row);
+    job->first = tc_alloc(frame->n_back, row);
+    job->history = tc_alloc(threads * (job->n_history + 1), row);
+    job->value = tc_alloc(threads, frame->n_node * sizeof *job->value);
+    job->error = tc_calloc(threads, sizeof *job->error);
+    if (!job->level || !job->first || !job->history || !job->value || !job->error)
+        return tc_fail_memory(err, "the pre-integration table's base", job->n_level * frame->n_front, row);
     return TC_OK;
 }
 
-static tc_status allocate(build *job, int threads, tc_error *err)
+static void fill(build *job)
 {
-    const size_t nodes = job->n_front + job->n_back, row = job->n_front * sizeof(quad);
-    tc_table *table = job->table;
-    const size_t texel = table->format == TC_TABLE_8 ? 4 : table->format == TC_TABLE_16F ? 8 : 16;
-    const size_t entries = job->n_front * job->n_back * (size_t)table->size[2]; /* at most 2^42 */
-    job->node_front = tc_alloc(nodes, sizeof *job->node_front);
-    job->node_back = tc_alloc(nodes, sizeof *job->node_back);
-    job->front_node = tc_alloc(job->n_front, sizeof *job->front_node);
-    job->level = tc_alloc(job->n_level * job->n_front, row);
-    job->first = tc_alloc(job->n_back, row);
-    job->history = tc_alloc((size_t)threads * (job->n_history + 1), row);
-    job->value = tc_alloc((size_t)threads, nodes * sizeof *job->value);
-    job->error = tc_calloc((size_t)threads, sizeof *job->error);
-    table->rgba = tc_alloc(entries, texel);
-    table->bytes = entries * texel;
-    if (!job->node_front || !job->node_back || !job->front_node || !job->level || !job->first || !job->history ||
-        !job->value || !job->error || !table->rgba)
-        return tc_fail_memory(err, "the pre-integration table", entries, texel);
-    return TC_OK;
+    const tc_table_frame *frame = &job->frame;
+    if (frame->options->entry_by_entry) {
+        tc_parallel_for(frame->n_back, 1, frame->threads, separate_rows, job);
+    } else {
+        tc_parallel_for(frame->n_front, 4, frame->threads, base_rows, job);
+        for (job->level_now = 1; job->level_now < job->n_level; job->level_now++)
+            tc_parallel_for(frame->n_front, 16, frame->threads, level_rows, job);
+        tc_parallel_for(frame->n_back, 4, frame->threads, incremental_rows, job);
+    }
+    for (int i = 0; i < frame->threads; i++)
+        frame->table->base_error = fmax(frame->table->base_error, job->error[i]);
+    frame->table->base_error += 0x1p-25; /* rounding to float */
 }
 
 tc_status tc_table_build(tc_table *out, const tc_transfer *tf, const tc_table_options *options, tc_error *err)
 {
-    memset(out, 0, sizeof *out);
-    tc_status status = tc_table_check(tf, options, err);
+    build job = {.n_level = 1, .n_history = 1};
+    tc_table_frame *frame = &job.frame;
+    tc_status status = tc_table_frame_begin(frame, out, tf, options, err);
     if (status != TC_OK)
-        return status;
-    const double start = tc_now_ms();
-    const int threads = tc_threads(options->threads);
-    memcpy(out->size, options->size, sizeof out->size);
-    memcpy(out->span, options->span, sizeof out->span);
-    out->length_max = options->length_max;
-    out->format = options->format == TC_TABLE_AUTO ? TC_TABLE_16F : options->format;
-    build job = {.options = options,
-                 .table = out,
-                 .n_front = (size_t)options->size[0],
-                 .n_back = (size_t)options->size[1],
-                 .n_level = 1,
-                 .n_history = 1};
-    for (; 2 * job.n_history + 1 < (size_t)options->size[2]; job.n_history *= 2)
+        goto done;
+    for (; 2 * job.n_history + 1 < frame->n_length; job.n_history *= 2)
         job.n_level++;
-    status = allocate(&job, threads, err);
-    double *x = status == TC_OK ? tc_alloc(job.n_front + job.n_back, sizeof *x) : NULL;
-    if (status == TC_OK && !x)
-        status = tc_fail_memory(err, "the pre-integration table", job.n_front + job.n_back, sizeof *x);
+    status = allocate(&job, err);
     if (status != TC_OK)
         goto done;
-    const size_t n_node = tc_table_axes(x, job.node_front, job.node_back, job.front_node, options->size);
-    status = tc_segments_build(&job.segments, tf, options->span, options->length_max / (options->size[2] - 1), x,
-                               n_node, err);
-    if (status != TC_OK)
-        goto done;
-    memset(out->rgba, 0, out->bytes / (size_t)options->size[2]); /* length 0 */
-    if (options->entry_by_entry) {
-        tc_parallel_for(job.n_back, 1, threads, separate_rows, &job);
-    } else {
-        tc_parallel_for(job.n_front, 4, threads, base_rows, &job);
-        for (job.level_now = 1; job.level_now < job.n_level; job.level_now++)
-            tc_parallel_for(job.n_front, 16, threads, level_rows, &job);
-        tc_parallel_for(job.n_back, 4, threads, incremental_rows, &job);
-    }
-    for (int i = 0; i < threads; i++)
-        out->base_error = fmax(out->base_error, job.error[i]);
-    out->base_error += 0x1p-25; /* rounding to float */
+    status = tc_segments_build(&frame->segments, tf, options->span, options->length_max / (options->size[2] - 1),
+                               frame->x, frame->n_node, err);
+    if (status == TC_OK)
+        fill(&job);
 done:
-    free(x);
-    tc_segments_finish(&job.segments);
-    free(job.node_front);
-    free(job.node_back);
-    free(job.front_node);
     free(job.level);
     free(job.first);
     free(job.history);
     free(job.value);
     free(job.error);
-    if (status != TC_OK)
-        tc_table_finish(out);
-    out->ms = status == TC_OK ? tc_now_ms() - start : 0;
-    return status;
+    return tc_table_frame_end(frame, status);
 }
 
 void tc_table_finish(tc_table *table)

@@ -32,10 +32,4 @@ typedef struct tc_table {
 tc_status tc_table_build(tc_table *out, const tc_transfer *tf, const tc_table_options *options, tc_error *err);
 void tc_table_finish(tc_table *table);
 
-/* For drift.c, which builds the other kind of table. The checks of tc_table_build. */
-tc_status tc_table_check(const tc_transfer *tf, const tc_table_options *options, tc_error *err);
-/* The places of both scalar axes in one ascending list, each once: x, and the entry along either at each, or -1
- * [size[0] + size[1]]; node of each entry along s_front [size[0]]. Returns how many. */
-size_t tc_table_axes(double *x, int *node_front, int *node_back, size_t *front_node, const int size[3]);
-
 #endif
