@@ -38,7 +38,8 @@ check() {
 for test in "$build"/tests/test_*; do
     name=$(basename "$test")
     case $name in
-    test_gpu_context | test_gpu_program | test_gpu_signs | test_gpu_watch) ;; # GL: Mesa makes code as it runs
+    # GL: Mesa makes code as it runs
+    test_gpu_context | test_gpu_exact | test_gpu_program | test_gpu_signs | test_gpu_watch | test_study_run) ;;
     test_gpu_propose | test_synth_shapes | test_synth_defects) ;; # minutes here; make sanitize has them
     *) check "$name" "$test" ;;
     esac
