@@ -272,8 +272,8 @@ than 1 % of its pixels, only the worst 1 % are asked whether they are ill-posed.
 10 000 stay below, of the worst view; the mean is over all channels of all pixels.
 
 *Times* are medians of {frames[0]} frames ({frames[1]} for the knobs) of each view, and of these over the views: first hit, march and resolve, without reading back; frames of one view are interleaved over
-the settings, each after a frame to warm up. Pictures have {size}×{size} pixels; there are {views} views of each scene, oblique and
-next to an axis, for the tables of defaults, `exact` and the paper's table, and {knob_views} for all other knobs.
+the settings, each after a frame to warm up. Pictures have {size[0]}×{size[0]} pixels, and there are {views} views of each scene, oblique and
+next to an axis, for the tables of defaults, `exact` and the paper's table; for all other knobs {size[1]}×{size[1]} and {knob_views} views.
 
 The functions are laid over the field's range: *smooth*, Cool to Warm with opacity rising linearly to 0.3; *knots12*, 12 knots
 of changing colour and opacity; *spike*, opacity 30 within 1/500 of the range; *steps*, steps between next to nothing and
@@ -358,23 +358,23 @@ def main():
               "folder)")
         return
     work += "-quick" if quick else ""
-    size, views, knob_views, frames, knob_frames = (48, 2, 1, 1, 1) if quick else (256, 8, 2, 3, 2)
+    size, knob_size, views, knob_views, frames, knob_frames = (64, 48, 2, 1, 1, 1) if quick else (512, 256, 8, 2, 3, 2)
     out = work if quick else docs
     fresh(work, tetcast)
     os.makedirs(os.path.join(out, "images"), exist_ok=True)
-    common = ["--size", f"{size}x{size}"]
     main_sums, knob_sums, plots = {}, {}, []
     for name, _, file, options, everything in SCENES:
         what = os.path.join(data, file) if file else f"synth:{name}" + (":5000" if quick else "")
         main_sums[name] = study(tetcast, os.path.join(work, name), what,
-                                options + common + ["--views", str(views), "--frames", str(frames), "--knobs", MAIN, "--no-plots"])
+                                options + ["--size", f"{size}x{size}", "--views", str(views), "--frames", str(frames), "--knobs", MAIN, "--no-plots"])
         folder = os.path.join(work, name + "-knobs")
-        knob_sums[name] = study(tetcast, folder, what, options + common + ["--views", str(knob_views), "--frames", str(knob_frames)] +
+        knob_sums[name] = study(tetcast, folder, what, options + ["--size", f"{knob_size}x{knob_size}", "--views", str(knob_views), "--frames",
+                                                                  str(knob_frames)] +
                                 ([] if everything else ["--knobs", "table"]))
         for kind in ["table-size"] + (["error-time", "samples", "rotation", "fragments"] if everything else []):
             plots.append((os.path.join(folder, f"{kind}-{name}.svg"), f"accuracy-{kind}-{name}.svg"))
-    choices = choice_part(tetcast, data, work, 64 if quick else 512)
-    text = page(tetcast, size, views, knob_views, (frames, knob_frames), main_sums, knob_sums, choices)
+    choices = choice_part(tetcast, data, work, size)
+    text = page(tetcast, (size, knob_size), views, knob_views, (frames, knob_frames), main_sums, knob_sums, choices)
     absent = [p[0] for p in plots if not os.path.exists(p[0])]
     if absent:
         sys.exit(f"accuracy: {absent[0]} was not drawn, so the page is left as it is; install gnuplot")
