@@ -19,7 +19,7 @@ void tc_job_defines(char *out, size_t capacity, const tc_job *job)
              job->frame->clip_far ? "#define CLIP_FAR\n" : "", job->frame->ahead ? "#define ENTRY_AHEAD\n" : "",
              tc_job_holds_depth(job) ? "#define COLOR_HOLDS_DEPTH\n" : "", job->count ? "#define COUNT\n" : "",
              job->audit ? "#define AUDIT\n" : "", job->nonfinite ? "#define NONFINITE\n" : "",
-             job->drift && job->steps ? "#define TF_STEPS\n" : "", job->has_nan_color ? "#define NAN_COLOR\n" : "",
+             job->steps ? "#define TF_STEPS\n" : "", job->has_nan_color ? "#define NAN_COLOR\n" : "",
              job->software ? "#define SOFTWARE\n" : "", running && job->order == 1 ? "#define TF_FIRST_ORDER\n" : "",
              running && job->split > 0 ? "#define TF_SPLIT\n" : "", running && job->hard > 0 ? "#define TF_HARD\n" : "",
              job->dense ? "#define PIECES_DENSE\n" : "");

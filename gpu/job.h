@@ -30,7 +30,6 @@ typedef struct tc_job {
     bool drift;                                  /* the table is one of drift.h, and below is what it needs: */
     double octave[3];  /* unit distances → octaves of its length axis; those → texture coordinate */
     double tf_most[3]; /* largest r, g, b of the function */
-    bool steps;        /* it has steps */
     double near;       /* running integrals: smallest difference */
     int order;         /* running integrals: 1 or 2 */
     double split;      /* … segments are cut to this optical depth; 0: never */
@@ -40,6 +39,7 @@ typedef struct tc_job {
     double hard_slope;  /* … of a length that is more than that many times its difference of x */
     bool dense;         /* … a segment of one may have an optical depth above 1 */
     int n_piece;        /* exact, hard: pieces of the function */
+    bool steps;         /* drift, exact, hard: the function has steps */
     bool nonfinite;     /* some scalars are NaN: their cells contribute nothing, */
     bool has_nan_color; /* … or nan_color: r, g, b, attenuation per unit distance */
     double nan_color[4];

@@ -26,7 +26,6 @@ static void bind_drift(tc_job *job, const tc_transfer_gpu *t)
     job->grid[0] = t->intervals;
     job->grid[1] = 1 / job->grid[0];
     memcpy(job->tf_most, t->most, sizeof job->tf_most);
-    job->steps = t->steps;
 }
 
 static void bind(tc_job *job, const tc_transfer_gpu *t)
@@ -60,6 +59,7 @@ static void bind(tc_job *job, const tc_transfer_gpu *t)
     if (job->drift)
         bind_drift(job, t);
     job->n_piece = t->n_piece;
+    job->steps = t->steps;
 }
 
 static tc_status build_means(tc_transfer_gpu *t, const tc_transfer_gpu_request *request, const tc_gl *gl,
@@ -146,6 +146,7 @@ static tc_status build_pieces(tc_transfer_gpu *t, const tc_transfer_gpu_request 
         return status;
     stats->ms_table = (stats->ms_table > 0 ? stats->ms_table : 0) + tc_now_ms() - start;
     t->n_piece = (int)pieces.n;
+    t->steps = pieces.steps;
     status = tc_gpu_pieces_upload(&t->textures, gl, &pieces, err);
     tc_pieces_finish(&pieces);
     return status;

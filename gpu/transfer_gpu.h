@@ -26,10 +26,10 @@ typedef struct tc_transfer_gpu {
     tc_table_format format;
     int size[3]; /* of the table; nodes */
     int n_piece;
+    bool steps;      /* in the pieces, or the means beside a table of floats */
     double rounding; /* of the integrals of extinction */
     double hard;     /* as tc_job's: pieces stand beside the nodes */
-    int intervals;   /* of the means beside a table of floats, */
-    bool steps;      /* … some with a step in them */
+    int intervals;   /* of the means beside a table of floats */
     double scalar[2], length_max, span[2], mean[4];
     double most[3]; /* largest r, g, b of the function, for a table of floats */
 } tc_transfer_gpu;

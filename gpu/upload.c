@@ -181,8 +181,8 @@ tc_status tc_gpu_means_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_me
 
 tc_status tc_gpu_pieces_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_pieces *pieces, tc_error *err)
 {
-    _Static_assert(sizeof(tc_piece) == 48, "three texels a piece");
-    tc_status status = upload_buffer(&out->pieces, gl, pieces->piece, 3 * pieces->n, 16, GL_RGBA32F,
+    _Static_assert(sizeof(tc_piece_end) == 48, "three texels an end");
+    tc_status status = upload_buffer(&out->pieces, gl, pieces->end, 3 * (pieces->n + 1), 16, GL_RGBA32F,
                                      "uploading the pieces of a transfer function", err);
     out->bytes += out->pieces.bytes;
     if (status != TC_OK)

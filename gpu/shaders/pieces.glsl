@@ -13,7 +13,7 @@
 // and those whose segment is done make a step first.
 #include "integrate_depth.glsl"
 
-FETCH_BUFFER(3) tf_pieces; // three a piece: from, to; r g b a at from; their slopes
+FETCH_BUFFER(3) tf_pieces; // three an end of pieces: x; r g b a below; those above, which differ at a step
 uniform int tf_piece_count;
 uniform int tf_piece_half; // a power of two, at least half the count
 
@@ -27,20 +27,27 @@ const float PIECE_DEEPEST = 1.0e20; // as deep as any depth
 struct Place {
     float x;
     vec4 front; // colour and extinction at x
-    int piece;  // the one that x is in
-    vec2 span;  // where it begins and ends
-    vec4 value, slope;
+    int piece;  // the one that x is in: from this end to the next
     float to, rest; // the segment's end, and how long it is until there
 };
 
-// Makes `piece` the current one, x being in it.
-void piece_enter(inout Place p, int piece)
+float piece_end(int end)
 {
-    p.piece = piece;
-    p.span = fetch(tf_pieces, 3 * piece).xy;
-    p.value = fetch(tf_pieces, 3 * piece + 1);
-    p.slope = fetch(tf_pieces, 3 * piece + 2);
-    p.front = p.value + p.slope * (p.x - p.span.x);
+    return fetch(tf_pieces, 3 * end).x;
+}
+
+vec4 piece_below(int end)
+{
+    return fetch(tf_pieces, 3 * end + 1);
+}
+
+vec4 piece_above(int end)
+{
+#ifdef TF_STEPS
+    return fetch(tf_pieces, 3 * end + 2);
+#else
+    return piece_below(end);
+#endif
 }
 
 Place place_at(float x)
@@ -49,11 +56,12 @@ Place place_at(float x)
     p.x = clamp(x, -PIECE_FAR, PIECE_FAR);
     p.to = p.x;
     p.rest = 0.0;
-    int piece = 0; // the last one that begins at or before x
+    p.piece = 0; // the last one that begins at or before x
     for (int step = tf_piece_half; step > 0; step /= 2)
-        if (piece + step < tf_piece_count && fetch(tf_pieces, 3 * min(piece + step, tf_piece_count - 1)).x <= p.x)
-            piece += step;
-    piece_enter(p, piece);
+        if (p.piece + step < tf_piece_count && piece_end(min(p.piece + step, tf_piece_count - 1)) <= p.x)
+            p.piece += step;
+    float from = piece_end(p.piece), to = piece_end(p.piece + 1);
+    p.front = mix(piece_above(p.piece), piece_below(p.piece + 1), clamp((p.x - from) / (to - from), 0.0, 1.0));
     return p;
 }
 
@@ -67,10 +75,22 @@ void piece_begin(inout Place p, float to, float l)
 // Adds the segment's next piece; false when it was the last.
 bool piece_round(inout Gathered g, inout Place p)
 {
-    float end = clamp(p.to, p.span.x, p.span.y);
-    bool last = end == p.to;
-    float part = last ? p.rest : p.rest * clamp((end - p.x) / (p.to - p.x), 0.0, 1.0);
-    vec4 back = p.value + p.slope * (end - p.span.x);
+    // The end of the piece that lies ahead, and whether the segment crosses it. Only places between are interpolated, so
+    // that what rounding does to them does not add up.
+    bool up = p.to > p.x;
+    int ahead = up ? p.piece + 1 : p.piece;
+    float end = piece_end(ahead);
+    vec4 back = piece_below(ahead);
+#ifdef TF_STEPS
+    vec4 below = back, above = piece_above(ahead), behind = up ? above : below;
+    back = up ? below : above;
+#endif
+    bool last = up ? p.to <= end : p.to >= end;
+    float segment = abs(p.to - p.x), piece = abs(end - p.x);
+    float ratio = min(min(segment, piece) / max(max(segment, piece), 1.0e-37), 1.0);
+    float part = last ? p.rest : p.rest * ratio;
+    end = last ? p.to : end;
+    back = last ? mix(p.front, back, ratio) : back;
     float rise = 0.5 * part * (back.a - p.front.a);
     float front = part * p.front.a;
 #ifdef PIECES_DENSE
@@ -97,15 +117,16 @@ bool piece_round(inout Gathered g, inout Place p)
     g.depth += t;
     g.transmittance -= g.transmittance * opacity;
     p.x = end;
-    p.front = back;
     p.rest = max(p.rest - part, 0.0);
-    last = last || g.transmittance < PIECE_OPAQUE;
 #ifdef PIECES_DENSE
-    if (!last && whole)
+    bool crosses = !last && whole;
 #else
-    if (!last)
+    bool crosses = !last;
 #endif
-        piece_enter(p, clamp(p.to > end ? p.piece + 1 : p.piece - 1, 0, tf_piece_count - 1));
-    return !last;
+    p.front = back;
+#ifdef TF_STEPS
+    p.front = crosses ? behind : back;
+#endif
+    p.piece = clamp(p.piece + (crosses ? up ? 1 : -1 : 0), 0, tf_piece_count - 1);
+    return !(last || g.transmittance < PIECE_OPAQUE);
 }
-

@@ -62,8 +62,10 @@ static bool has_cavity(const char *mesh)
 static size_t short_cases(hard_case *out, size_t index, bool gpu)
 {
     size_t n = 0, views = hard_view_count() - 2; /* the last is large, the one before it seldom tells */
-    for (size_t k = 0; k < 3; k++)
-        out[n++] = plain((3 * index + k) % views, 5 * index + 7 * k + 2);
+    for (size_t k = 0; k < 3; k++) {
+        out[n] = plain((3 * index + k) % views, 5 * index + 7 * k + 2);
+        out[n++].integrator = k == 1 ? TC_INTEGRATOR_AUTO : TC_INTEGRATOR_INTEGRAL;
+    }
     out[n] = plain(index % 2 ? VIEW_FRONT : VIEW_OBLIQUE, FUNCTION_CONSTANT);
     out[n++].integrator = gpu && index % 4 == 0 ? TC_INTEGRATOR_TABLE : TC_INTEGRATOR_INTEGRAL;
     out[n] = plain(index % 2 ? VIEW_OBLIQUE : VIEW_FRONT, FUNCTION_SMOOTH);
@@ -79,8 +81,10 @@ static size_t long_cases(hard_case *out, size_t index, bool gpu)
     for (size_t v = 0; v < hard_view_count(); v++)
         if (!hard_view_is_large(v) || (gpu && index % 8 == 0))
             out[n++] = plain(v, index + v);
-    for (size_t f = 0; f < hard_function_count(); f++)
-        out[n++] = plain((index + f) % 3, f);
+    for (size_t f = 0; f < hard_function_count(); f++) {
+        out[n] = plain((index + f) % 3, f);
+        out[n++].integrator = (index + f) % 2 ? TC_INTEGRATOR_AUTO : TC_INTEGRATOR_INTEGRAL;
+    }
     for (size_t v = 0; v < 3 && gpu; v++) {
         out[n] = plain(v, FUNCTION_CONSTANT);
         out[n++].integrator = TC_INTEGRATOR_TABLE;
@@ -117,5 +121,7 @@ void hard_case_name(char *out, size_t capacity, size_t index, const hard_case *c
     snprintf(out, capacity, "%s%s; %s; %s%s%s%s", hard_catalogue_mesh(index),
              index >= generators() ? " of 1e7 cells" : "", hard_view_name(c->view), hard_function_name(c->function),
              c->relation ? "; " : "", c->relation ? hard_relation_name(c->relation) : "",
-             c->integrator == TC_INTEGRATOR_TABLE ? "; table" : "");
+             c->integrator == TC_INTEGRATOR_TABLE  ? "; table"
+             : c->integrator == TC_INTEGRATOR_AUTO ? "; default"
+                                                   : "");
 }
