@@ -23,18 +23,58 @@ static void pack_cell(int32_t *out, const int32_t *tet, const int32_t *neighbour
     }
 }
 
-static void find_frame(tc_pack *pack, const tc_mesh *mesh)
+/* Vertices or cells that are one thread's at a time. What is summed up is summed by chunk, and the chunks in order, so
+ * that nothing depends on the number of threads. */
+enum { CHUNK = 16384 };
+
+static size_t chunks_of(size_t n)
 {
-    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY}, d2 = 0;
-    for (size_t i = 0; i < mesh->n_vertex; i++)
+    return (n + CHUNK - 1) / CHUNK;
+}
+
+typedef struct box {
+    double lo[3], hi[3];
+} box;
+
+/* What a chunk of cells adds to the extent. */
+typedef struct share {
+    tc_pack_extent extent; /* held: sums */
+    double weight;
+} share;
+
+typedef struct work {
+    tc_pack *pack;
+    const tc_mesh *mesh;
+    box *box;      /* of each chunk of vertices */
+    share *share;  /* of each chunk of real cells */
+    size_t *first; /* of each chunk of cells: how many open faces lie before it */
+} work;
+
+static void bound_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const work *j = context;
+    box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t i = begin; i < end; i++)
         for (int k = 0; k < 3; k++) {
-            lo[k] = fmin(lo[k], mesh->vertex[3 * i + k]);
-            hi[k] = fmax(hi[k], mesh->vertex[3 * i + k]);
+            double x = j->mesh->vertex[3 * i + (size_t)k];
+            b.lo[k] = x < b.lo[k] ? x : b.lo[k];
+            b.hi[k] = x > b.hi[k] ? x : b.hi[k];
         }
+    j->box[begin / CHUNK] = b;
+}
+
+static void find_frame(tc_pack *pack, const box *part, size_t n_part)
+{
+    double d2 = 0;
     for (int k = 0; k < 3; k++) {
-        pack->center[k] = 0.5 * lo[k] + 0.5 * hi[k];
-        double half = 0.5 * hi[k] - 0.5 * lo[k];
-        d2 = hypot(d2, half);
+        double lo = INFINITY, hi = -INFINITY;
+        for (size_t i = 0; i < n_part; i++) {
+            lo = fmin(lo, part[i].lo[k]);
+            hi = fmax(hi, part[i].hi[k]);
+        }
+        pack->center[k] = 0.5 * lo + 0.5 * hi;
+        d2 = hypot(d2, 0.5 * hi - 0.5 * lo);
     }
     pack->scale = d2 > 0 && isfinite(1 / d2) ? 1 / d2 : 1;
 }
@@ -45,13 +85,17 @@ static float map_scalar(double x, double lo, double hi)
     return isfinite(x) ? (float)tc_place(x, lo, hi) : NAN;
 }
 
-static void pack_vertices(tc_pack *pack, const tc_mesh *mesh)
+static void vertex_range(void *context, size_t begin, size_t end, int worker)
 {
+    (void)worker;
+    const work *j = context;
+    const tc_pack *pack = j->pack;
+    const tc_mesh *mesh = j->mesh;
     bool has_scalar = mesh->association == TC_POINT_DATA && mesh->scalar;
-    for (size_t i = 0; i < mesh->n_vertex; i++) {
+    for (size_t i = begin; i < end; i++) {
         float *v = pack->vertex + 4 * i;
         for (int k = 0; k < 3; k++)
-            v[k] = (float)((mesh->vertex[3 * i + k] - pack->center[k]) * pack->scale);
+            v[k] = (float)((mesh->vertex[3 * i + (size_t)k] - pack->center[k]) * pack->scale);
         v[3] = has_scalar ? map_scalar(mesh->scalar[i], pack->scalar_lo, pack->scalar_hi) : 0;
     }
 }
@@ -91,6 +135,36 @@ static double measure_cell(tc_pack_extent *out, const tc_pack *pack, const int32
     return weight;
 }
 
+/* Values of cells, and what each chunk adds to the extent. */
+static void extent_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const work *j = context;
+    const tc_pack *pack = j->pack;
+    share *s = &j->share[begin / CHUNK];
+    for (size_t i = begin; i < end; i++) {
+        float *value = pack->cell_scalar ? &pack->cell_scalar[i] : NULL;
+        if (value)
+            *value = map_scalar(j->mesh->scalar[i], pack->scalar_lo, pack->scalar_hi);
+        s->weight += measure_cell(&s->extent, pack, j->mesh->tet + 4 * i, value);
+    }
+}
+
+static void sum_extent(tc_pack_extent *out, const share *part, size_t n_part)
+{
+    double weight = 0;
+    for (size_t i = 0; i < n_part; i++) {
+        weight += part[i].weight;
+        for (int b = 0; b < TC_PACK_BINS; b++) {
+            out->edge[b] = fmaxf(out->edge[b], part[i].extent.edge[b]);
+            out->edge_range[b] = fmaxf(out->edge_range[b], part[i].extent.edge_range[b]);
+            out->held[b] += part[i].extent.held[b];
+        }
+    }
+    for (int b = 0; b < TC_PACK_BINS; b++)
+        out->held[b] = weight > 0 ? out->held[b] / weight : 0;
+}
+
 /* Writes an open face's corners, the least by place first: two open faces at one place, as where cells overlap, then give
  * a ray the same depth to the last bit, and not its rounding but their numbers tell which is entered first. */
 static void pack_face(int32_t *face, float *corner, const tc_pack *pack, const int32_t *tet, int f)
@@ -111,58 +185,111 @@ static void pack_face(int32_t *face, float *corner, const tc_pack *pack, const i
     }
 }
 
-tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err)
+static void count_range(void *context, size_t begin, size_t end, int worker)
 {
-    memset(out, 0, sizeof *out);
-    if (!mesh->prepared || !mesh->neighbour)
-        return tc_fail(err, TC_E_ARG, "the mesh was not prepared; call tc_mesh_prepare first");
-    double start = tc_now_ms();
-    size_t n = mesh->n_tet + mesh->n_imaginary, faces = 0;
-    if (n > INT32_MAX / TC_PACK_CELL_INTS)
-        return tc_fail(err, TC_E_MESH, "%zu cells are more than this version can address (%d)", n,
-                       INT32_MAX / TC_PACK_CELL_INTS);
-    for (size_t i = 0; i < 4 * n; i++)
-        faces += mesh->neighbour[i] < 0;
-    out->n_cell = n;
-    out->n_real = mesh->n_tet;
-    out->n_vertex = mesh->n_vertex;
-    out->n_face = faces;
-    bool cell_data = mesh->association == TC_CELL_DATA && mesh->scalar;
-    out->cell = tc_alloc(n, TC_PACK_CELL_INTS * sizeof *out->cell);
-    out->vertex = tc_alloc(mesh->n_vertex, TC_PACK_VERTEX_FLOATS * sizeof *out->vertex);
-    out->face = tc_alloc(faces, TC_PACK_FACE_INTS * sizeof *out->face);
-    out->face_corner = tc_alloc(faces, 9 * sizeof *out->face_corner);
-    out->cell_scalar = cell_data ? tc_alloc(mesh->n_tet, sizeof *out->cell_scalar) : NULL;
-    if (!out->cell || !out->vertex || !out->face || !out->face_corner || (cell_data && !out->cell_scalar)) {
-        tc_pack_finish(out);
-        return tc_fail_memory(err, "the packed mesh", n, 24);
-    }
-    find_frame(out, mesh);
-    out->scalar_lo = mesh->report.scalar_range[0];
-    out->scalar_hi = mesh->report.scalar_range[1];
-    pack_vertices(out, mesh);
-    int32_t *face = out->face;
-    float *corner = out->face_corner;
-    for (size_t i = 0; i < n; i++) {
-        const int32_t *tet = mesh->tet + 4 * i, *neighbour = mesh->neighbour + 4 * i;
-        pack_cell(out->cell + TC_PACK_CELL_INTS * i, tet, neighbour);
+    (void)worker;
+    const work *j = context;
+    size_t n = 0;
+    for (size_t i = 4 * begin; i < 4 * end; i++)
+        n += j->mesh->neighbour[i] < 0;
+    j->first[begin / CHUNK] = n;
+}
+
+static void cell_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const work *j = context;
+    tc_pack *pack = j->pack;
+    int32_t *face = pack->face + TC_PACK_FACE_INTS * j->first[begin / CHUNK];
+    float *corner = pack->face_corner + 9 * j->first[begin / CHUNK];
+    for (size_t i = begin; i < end; i++) {
+        const int32_t *tet = j->mesh->tet + 4 * i, *neighbour = j->mesh->neighbour + 4 * i;
+        pack_cell(pack->cell + TC_PACK_CELL_INTS * i, tet, neighbour);
         for (int f = 0; f < 4; f++)
             if (neighbour[f] < 0) {
-                pack_face(face, corner, out, tet, f);
+                pack_face(face, corner, pack, tet, f);
                 corner += 9;
                 face[3] = (int32_t)i * TC_PACK_CELL_INTS;
                 face += TC_PACK_FACE_INTS;
             }
     }
-    for (size_t i = 0; cell_data && i < mesh->n_tet; i++)
-        out->cell_scalar[i] = map_scalar(mesh->scalar[i], out->scalar_lo, out->scalar_hi);
-    double weight = 0;
-    for (size_t i = 0; i < mesh->n_tet; i++)
-        weight += measure_cell(&out->extent, out, mesh->tet + 4 * i, cell_data ? &out->cell_scalar[i] : NULL);
-    for (int b = 0; b < TC_PACK_BINS; b++)
-        out->extent.held[b] = weight > 0 ? out->extent.held[b] / weight : 0;
-    out->ms = tc_now_ms() - start;
+}
+
+static tc_status check_mesh(const tc_mesh *mesh, tc_error *err)
+{
+    size_t n = mesh->n_tet + mesh->n_imaginary;
+    if (!mesh->prepared || !mesh->neighbour)
+        return tc_fail(err, TC_E_ARG, "the mesh was not prepared; call tc_mesh_prepare first");
+    if (n > INT32_MAX / TC_PACK_CELL_INTS)
+        return tc_fail(err, TC_E_MESH, "%zu cells are more than this version can address (%d)", n,
+                       INT32_MAX / TC_PACK_CELL_INTS);
     return TC_OK;
+}
+
+tc_status tc_pack_scalars(tc_pack *out, const tc_mesh *mesh, int threads, tc_error *err)
+{
+    memset(out, 0, sizeof *out);
+    tc_status status = check_mesh(mesh, err);
+    if (status != TC_OK)
+        return status;
+    double start = tc_now_ms();
+    bool cell_data = mesh->association == TC_CELL_DATA && mesh->scalar;
+    size_t vertex_chunks = chunks_of(mesh->n_vertex), cell_chunks = chunks_of(mesh->n_tet);
+    out->n_cell = mesh->n_tet + mesh->n_imaginary;
+    out->n_real = mesh->n_tet;
+    out->n_vertex = mesh->n_vertex;
+    out->scalar_lo = mesh->report.scalar_range[0];
+    out->scalar_hi = mesh->report.scalar_range[1];
+    out->vertex = tc_alloc(mesh->n_vertex, TC_PACK_VERTEX_FLOATS * sizeof *out->vertex);
+    out->cell_scalar = cell_data ? tc_alloc(mesh->n_tet, sizeof *out->cell_scalar) : NULL;
+    work j = {.pack = out,
+              .mesh = mesh,
+              .box = tc_alloc(vertex_chunks, sizeof *j.box),
+              .share = tc_calloc(cell_chunks, sizeof *j.share)};
+    if (!out->vertex || (cell_data && !out->cell_scalar) || !j.box || !j.share) {
+        tc_pack_finish(out);
+        status = tc_fail_memory(err, "the packed values", mesh->n_vertex * 4 + mesh->n_tet, sizeof(float));
+    } else {
+        tc_parallel_for(mesh->n_vertex, CHUNK, threads, bound_range, &j);
+        find_frame(out, j.box, vertex_chunks);
+        tc_parallel_for(mesh->n_vertex, CHUNK, threads, vertex_range, &j);
+        tc_parallel_for(mesh->n_tet, CHUNK, threads, extent_range, &j);
+        sum_extent(&out->extent, j.share, cell_chunks);
+        out->ms = tc_now_ms() - start;
+    }
+    free(j.box);
+    free(j.share);
+    return status;
+}
+
+tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, int threads, tc_error *err)
+{
+    tc_status status = tc_pack_scalars(out, mesh, threads, err);
+    if (status != TC_OK)
+        return status;
+    double start = tc_now_ms();
+    size_t n = out->n_cell, n_chunk = chunks_of(n), faces = 0;
+    work j = {.pack = out, .mesh = mesh, .first = tc_alloc(n_chunk, sizeof *j.first)};
+    if (j.first)
+        tc_parallel_for(n, CHUNK, threads, count_range, &j);
+    for (size_t i = 0; j.first && i < n_chunk; i++) {
+        size_t count = j.first[i];
+        j.first[i] = faces;
+        faces += count;
+    }
+    out->n_face = faces;
+    out->cell = tc_alloc(n, TC_PACK_CELL_INTS * sizeof *out->cell);
+    out->face = tc_alloc(faces, TC_PACK_FACE_INTS * sizeof *out->face);
+    out->face_corner = tc_alloc(faces, 9 * sizeof *out->face_corner);
+    if (!j.first || !out->cell || !out->face || !out->face_corner) {
+        tc_pack_finish(out);
+        status = tc_fail_memory(err, "the packed mesh", n, 24);
+    } else {
+        tc_parallel_for(n, CHUNK, threads, cell_range, &j);
+        out->ms += tc_now_ms() - start;
+    }
+    free(j.first);
+    return status;
 }
 
 void tc_pack_finish(tc_pack *pack)

@@ -37,9 +37,13 @@ typedef struct tc_pack {
     double ms;
 } tc_pack;
 
-/* The mesh must be prepared. Errors: TC_E_ARG (not prepared), TC_E_MESH (more cells than 32 bits
- * address), TC_E_MEMORY. Cost: O(cells), about 0.1 us a cell. */
-tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, tc_error *err);
+/* The mesh must be prepared. threads: 0, all cores; the result does not depend on them. Errors: TC_E_ARG (not prepared),
+ * TC_E_MESH (more cells than 32 bits address), TC_E_MEMORY. Cost: O(cells), about 0.1 us a cell on one core. */
+tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, int threads, tc_error *err);
+/* What new values change, and no more: vertex (positions as before, and the scalars), cell_scalar, scalar_lo and _hi, extent,
+ * with center, scale and all counts but n_face; the other arrays are NULL. All is as tc_pack_build gives it. Ends with
+ * tc_pack_finish, too. Errors: as tc_pack_build. Cost: O(cells), some 15 ns a cell on one core, 16 B a vertex. */
+tc_status tc_pack_scalars(tc_pack *out, const tc_mesh *mesh, int threads, tc_error *err);
 void tc_pack_finish(tc_pack *pack);
 
 #endif

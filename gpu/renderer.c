@@ -110,7 +110,7 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, bool plane
     tc_gpu_mesh_finish(&r->mesh, gl);
     r->mesh_serial = r->scalar_serial = 0;
     tc_pack pack;
-    tc_status status = tc_pack_build(&pack, mesh, err);
+    tc_status status = tc_pack_build(&pack, mesh, r->threads, err);
     if (status != TC_OK)
         return status;
     tc_pack_planes table1 = {0};

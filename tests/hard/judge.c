@@ -52,7 +52,7 @@ tc_status hard_judge_create(hard_judge **out, const tc_mesh *mesh, tc_error *err
 {
     *out = NULL;
     tc_pack pack;
-    tc_status status = tc_pack_build(&pack, mesh, err);
+    tc_status status = tc_pack_build(&pack, mesh, 0, err);
     if (status != TC_OK)
         return status;
     hard_judge *j = tc_calloc(1, sizeof *j);

@@ -26,7 +26,7 @@ static tc_pack pack_of(const tc_mesh *mesh)
 {
     tc_pack pack;
     tc_error err = {0};
-    if (tc_pack_build(&pack, mesh, &err) != TC_OK)
+    if (tc_pack_build(&pack, mesh, 0, &err) != TC_OK)
         fail_msg("%s", err.text);
     return pack;
 }
@@ -153,6 +153,55 @@ static void cell_data_belong_to_other_cells(void **state)
     tc_mesh_destroy(&mesh);
 }
 
+static void check_same(const tc_pack *a, const tc_pack *b)
+{
+    assert_int_equal(a->n_cell, b->n_cell);
+    assert_int_equal(a->n_real, b->n_real);
+    assert_int_equal(a->n_vertex, b->n_vertex);
+    assert_memory_equal(a->vertex, b->vertex, a->n_vertex * TC_PACK_VERTEX_FLOATS * sizeof(float));
+    assert_memory_equal(a->center, b->center, sizeof a->center);
+    assert_true(a->scale == b->scale && a->scalar_lo == b->scalar_lo && a->scalar_hi == b->scalar_hi);
+    assert_memory_equal(&a->extent, &b->extent, sizeof a->extent);
+    if (a->cell_scalar)
+        assert_memory_equal(a->cell_scalar, b->cell_scalar, a->n_real * sizeof(float));
+    assert_true(!a->cell_scalar == !b->cell_scalar);
+}
+
+/* More than one chunk of cells, with gaps; the second time with other values, of cells. */
+static void the_pack_depends_on_threads_or_values_packed_alone_differ(void **state)
+{
+    (void)state;
+    tc_mesh *mesh = synth("shells", 40000);
+    double *value = malloc(mesh->n_tet_source * sizeof *value);
+    assert_non_null(value);
+    for (size_t i = 0; i < mesh->n_tet_source; i++)
+        value[i] = i % 1000 == 7 ? (double)NAN : cos((double)i);
+    for (int round = 0; round < 2; round++) {
+        tc_pack one, many, alone;
+        assert_int_equal(tc_pack_build(&one, mesh, 1, NULL), TC_OK);
+        assert_int_equal(tc_pack_build(&many, mesh, 5, NULL), TC_OK);
+        assert_int_equal(tc_pack_scalars(&alone, mesh, 3, NULL), TC_OK);
+        check_same(&one, &many);
+        check_same(&one, &alone);
+        assert_int_equal(one.n_face, many.n_face);
+        assert_memory_equal(one.cell, many.cell, one.n_cell * TC_PACK_CELL_INTS * sizeof *one.cell);
+        assert_memory_equal(one.face, many.face, one.n_face * TC_PACK_FACE_INTS * sizeof *one.face);
+        assert_memory_equal(one.face_corner, many.face_corner, one.n_face * 9 * sizeof *one.face_corner);
+        double held = 0;
+        for (int b = 0; b < TC_PACK_BINS; b++)
+            held += one.extent.held[b];
+        assert_true(held > 0 || round == 1); /* a cell of one value takes no share of a bin */
+        assert_null(alone.cell);
+        assert_null(alone.face);
+        tc_pack_finish(&one);
+        tc_pack_finish(&many);
+        tc_pack_finish(&alone);
+        assert_int_equal(tc_mesh_set_scalar(mesh, value, TC_CELL_DATA, NULL), TC_OK);
+    }
+    free(value);
+    tc_mesh_destroy(&mesh);
+}
+
 static void an_unprepared_mesh_is_packed(void **state)
 {
     (void)state;
@@ -160,7 +209,7 @@ static void an_unprepared_mesh_is_packed(void **state)
     tc_pack p;
     tc_error err = {0};
     assert_int_equal(tc_synth_create(&mesh, "two", 0, 0, NULL), TC_OK);
-    assert_int_equal(tc_pack_build(&p, mesh, &err), TC_E_ARG);
+    assert_int_equal(tc_pack_build(&p, mesh, 0, &err), TC_E_ARG);
     assert_non_null(strstr(err.text, "tc_mesh_prepare"));
     tc_mesh_destroy(&mesh);
 }
@@ -170,6 +219,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_step_leads_to_another_vertex_or_cell), cmocka_unit_test(boundary_faces_look_inside),
         cmocka_unit_test(positions_are_rounded_more_than_once),   cmocka_unit_test(cell_data_belong_to_other_cells),
+        cmocka_unit_test(the_pack_depends_on_threads_or_values_packed_alone_differ),
         cmocka_unit_test(an_unprepared_mesh_is_packed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -22,7 +22,7 @@ static fixture fixture_of(tc_mesh *mesh)
 {
     fixture f = {.mesh = mesh};
     tc_error err = {0};
-    if (tc_mesh_prepare(mesh, NULL, NULL, &err) != TC_OK || tc_pack_build(&f.pack, mesh, &err) != TC_OK ||
+    if (tc_mesh_prepare(mesh, NULL, NULL, &err) != TC_OK || tc_pack_build(&f.pack, mesh, 0, &err) != TC_OK ||
         tc_pack_planes_build(&f.planes, mesh, &f.pack, &err) != TC_OK)
         fail_msg("%s", err.text);
     assert_int_equal(f.planes.n_cell, f.pack.n_cell);

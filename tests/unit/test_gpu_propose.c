@@ -24,7 +24,7 @@ static fixture make(tc_mesh *mesh)
     fixture f = {.mesh = mesh};
     tc_error err = {0};
     const tc_prepare_options options = {.reentry = TC_REENTRY_PEEL};
-    if (tc_mesh_prepare(mesh, &options, NULL, &err) != TC_OK || tc_pack_build(&f.pack, mesh, &err) != TC_OK)
+    if (tc_mesh_prepare(mesh, &options, NULL, &err) != TC_OK || tc_pack_build(&f.pack, mesh, 0, &err) != TC_OK)
         fail_msg("%s", err.text);
     return f;
 }
