@@ -1,7 +1,8 @@
 /* adjacency.c: which tets share a face.
- * Faces are put into one bucket per smallest vertex id (counting sort); each bucket is sorted by the two other ids and
- * linked on its own, so buckets go to threads without locks. With vertices along a space-filling curve a
- * bucket's faces lie close together in memory. */
+ * Faces are put into parts by ranges of their smallest vertex id, one pass over the tets by the threads together. Each part,
+ * small enough for a core's cache, is then linked by one thread through a hash table of its faces; parts with faces
+ * that more than two tets share, or with equal tets, are sorted instead. With vertices along a space-filling curve the tets
+ * of a part lie close together in memory. */
 #include "mesh/adjacency.h"
 
 #include "core/memory.h"
@@ -14,15 +15,31 @@
 
 const uint8_t tc_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
+enum { PART_VERTICES = 512, MOST_PARTS = 4096, CHUNK = 16384 };
+
 typedef struct entry {
-    uint64_t key;      /* middle id, largest id */
-    uint32_t opposite; /* vertex */
-    uint32_t face;     /* 4 * tet + face */
+    uint64_t key;             /* middle id, largest id */
+    uint32_t least, opposite; /* vertices */
+    uint32_t face;            /* 4 * tet + face */
+    bool odd, paired;         /* odd: ascending ids wind it inwards */
 } entry;
 
+/* One thread's. */
+typedef struct scratch {
+    entry *entry;
+    uint32_t *slot; /* entry + 1, or 0 */
+    size_t n_entry, n_slot;
+} scratch;
+
 typedef struct build {
-    int32_t *neighbour, *tet;
-    const uint32_t *start, *item; /* buckets */
+    const tc_adjacency_input *in;
+    int32_t *neighbour;
+    size_t block;          /* tets that one thread goes through at a time */
+    int shift;             /* vertex id → part */
+    size_t n_part, *start; /* [block][part] where the block's items begin in the part */
+    const size_t *part;    /* [n_part + 1] where parts begin */
+    uint32_t *item;        /* 2 * tet: its three faces at its least vertex; 2 * tet + 1: the face opposite that */
+    scratch *scratch;      /* by worker */
     atomic_uchar *duplicate;
     atomic_size_t n_duplicate, n_many, n_one_side;
     atomic_bool no_memory;
@@ -43,40 +60,142 @@ static int face_key(int32_t *key, const int32_t *tet, int f)
     return parity;
 }
 
-static int32_t face_min(const int32_t *tet, int f)
+/* ------------------------------------------------------------------------------------------------ into parts */
+
+static bool takes_part(const build *b, size_t t)
 {
-    int32_t a = tet[tc_tet_face[f][0]], b = tet[tc_tet_face[f][1]], c = tet[tc_tet_face[f][2]];
-    a = a < b ? a : b;
-    return a < c ? a : c;
+    const int32_t *w = b->neighbour + 4 * t;
+    return t >= b->in->first || w[0] < 0 || w[1] < 0 || w[2] < 0 || w[3] < 0;
 }
 
-static bool entry_less(const entry *a, const entry *b)
+/* The parts of a tet's two items: those of its least and of its second vertex. */
+static void parts_of(size_t out[2], const build *b, size_t t)
 {
+    const int32_t *v = b->in->tet + 4 * t;
+    int32_t p = v[0] < v[1] ? v[0] : v[1], q = v[0] < v[1] ? v[1] : v[0];
+    int32_t r = v[2] < v[3] ? v[2] : v[3], s = v[2] < v[3] ? v[3] : v[2];
+    int32_t least = p < r ? p : r, second = p < r ? (q < r ? q : r) : (s < p ? s : p);
+    out[0] = (size_t)least >> b->shift, out[1] = (size_t)second >> b->shift;
+}
+
+static size_t block_end(const build *b, size_t block)
+{
+    size_t end = (block + 1) * b->block;
+    return end < b->in->n_tet ? end : b->in->n_tet;
+}
+
+static void count_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const build *b = context;
+    for (size_t block = begin; block < end; block++) {
+        size_t *count = b->start + block * b->n_part, part[2];
+        for (size_t t = block * b->block, last = block_end(b, block); t < last; t++)
+            if (takes_part(b, t)) {
+                parts_of(part, b, t);
+                count[part[0]]++;
+                count[part[1]]++;
+            }
+    }
+}
+
+static void scatter_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const build *b = context;
+    for (size_t block = begin; block < end; block++) {
+        size_t *start = b->start + block * b->n_part, part[2];
+        for (size_t t = block * b->block, last = block_end(b, block); t < last; t++)
+            if (takes_part(b, t)) {
+                parts_of(part, b, t);
+                b->item[start[part[0]]++] = (uint32_t)(2 * t);
+                b->item[start[part[1]]++] = (uint32_t)(2 * t + 1);
+            }
+    }
+}
+
+/* ----------------------------------------------------------------------------------------------- linking a part */
+
+/* Ascending; true when they were exchanged. */
+static bool ascend(uint64_t *a, uint64_t *b)
+{
+    uint64_t x = *a, y = *b;
+    bool swap = x > y;
+    *a = swap ? y : x, *b = swap ? x : y;
+    return swap;
+}
+
+/* Adds the faces of an item that take part. */
+static size_t add_faces(entry *e, const build *b, uint32_t item)
+{
+    size_t t = item >> 1, n = 0;
+    const int32_t *tet = b->in->tet + 4 * t;
+    uint64_t v[4]; /* id, and its place in the tet */
+    for (size_t i = 0; i < 4; i++)
+        v[i] = (uint64_t)(uint32_t)tet[i] << 2 | i;
+    bool odd = ascend(&v[0], &v[1]);
+    odd ^= ascend(&v[2], &v[3]);
+    odd ^= ascend(&v[0], &v[2]);
+    odd ^= ascend(&v[1], &v[3]);
+    odd ^= ascend(&v[1], &v[2]);
+    for (int k = item & 1 ? 0 : 1; k < (item & 1 ? 1 : 4); k++) { /* the face opposite the k-th least vertex */
+        uint32_t face = (uint32_t)(4 * t + (v[k] & 3));
+        if (t < b->in->first && b->neighbour[face] >= 0)
+            continue;
+        uint64_t least = v[k == 0 ? 1 : 0], middle = v[k < 2 ? 2 : 1], most = v[k < 3 ? 3 : 2];
+        e[n++] = (entry){.key = (middle >> 2) << 32 | most >> 2,
+                         .least = (uint32_t)(least >> 2),
+                         .opposite = (uint32_t)(v[k] >> 2),
+                         .face = face,
+                         .odd = odd ^ (k & 1)};
+    }
+    return n;
+}
+
+static void link_pair(build *b, const entry *p, const entry *q)
+{
+    b->neighbour[p->face] = (int32_t)(q->face >> 2);
+    b->neighbour[q->face] = (int32_t)(p->face >> 2);
+}
+
+/* False, and of no effect that counts, when a face has three tets or two tets are equal. */
+static bool link_by_hash(build *b, entry *e, size_t n, uint32_t *slot, size_t n_slot)
+{
+    size_t one_side = 0;
+    memset(slot, 0, n_slot * sizeof *slot);
+    for (size_t i = 0; i < n; i++) {
+        uint64_t h = (e[i].key ^ (uint64_t)e[i].least * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+        size_t s = (size_t)(h ^ h >> 32) & (n_slot - 1);
+        b->neighbour[e[i].face] = -1;
+        for (; slot[s]; s = (s + 1) & (n_slot - 1)) {
+            entry *other = &e[slot[s] - 1];
+            if (other->key != e[i].key || other->least != e[i].least)
+                continue;
+            if (other->paired || other->opposite == e[i].opposite)
+                return false;
+            other->paired = true;
+            link_pair(b, other, &e[i]);
+            one_side += other->odd == e[i].odd;
+            break;
+        }
+        if (!slot[s])
+            slot[s] = (uint32_t)i + 1;
+    }
+    if (one_side > 0)
+        atomic_fetch_add(&b->n_one_side, one_side);
+    return true;
+}
+
+static int entry_compare(const void *x, const void *y)
+{
+    const entry *a = x, *b = y;
+    if (a->least != b->least)
+        return a->least < b->least ? -1 : 1;
     if (a->key != b->key)
-        return a->key < b->key;
+        return a->key < b->key ? -1 : 1;
     if (a->opposite != b->opposite)
-        return a->opposite < b->opposite;
-    return a->face < b->face;
-}
-
-static int entry_compare(const void *a, const void *b)
-{
-    return entry_less(a, b) ? -1 : entry_less(b, a);
-}
-
-static void entry_sort(entry *e, size_t n)
-{
-    if (n > 48) {
-        qsort(e, n, sizeof *e, entry_compare);
-        return;
-    }
-    for (size_t i = 1; i < n; i++) {
-        entry x = e[i];
-        size_t j = i;
-        for (; j > 0 && entry_less(&x, &e[j - 1]); j--)
-            e[j] = e[j - 1];
-        e[j] = x;
-    }
+        return a->opposite < b->opposite ? -1 : 1;
+    return a->face < b->face ? -1 : a->face > b->face;
 }
 
 /* One run of entries that are the same face. */
@@ -87,11 +206,8 @@ static void link_run(build *b, const entry *e, size_t n)
             !atomic_exchange_explicit(&b->duplicate[e[i].face >> 2], 1, memory_order_relaxed))
             atomic_fetch_add(&b->n_duplicate, 1);
     if (n == 2) {
-        uint32_t p = e[0].face, q = e[1].face;
-        b->neighbour[p] = (int32_t)(q >> 2);
-        b->neighbour[q] = (int32_t)(p >> 2);
-        int32_t key[3];
-        if (face_key(key, b->tet + 4 * (size_t)(p >> 2), p & 3) == face_key(key, b->tet + 4 * (size_t)(q >> 2), q & 3))
+        link_pair(b, &e[0], &e[1]);
+        if (e[0].odd == e[1].odd)
             atomic_fetch_add(&b->n_one_side, 1);
         return;
     }
@@ -101,42 +217,48 @@ static void link_run(build *b, const entry *e, size_t n)
         atomic_fetch_add(&b->n_many, 1);
 }
 
-static void link_buckets(void *context, size_t begin, size_t end, int worker)
+static void link_by_sorting(build *b, entry *e, size_t n)
 {
-    (void)worker;
-    build *b = context;
-    entry local[512], *scratch = NULL;
-    size_t capacity = 0;
-    for (size_t v = begin; v < end; v++) {
-        size_t first = b->start[v], n = b->start[v + 1] - first;
-        entry *e = local;
-        if (n > sizeof local / sizeof local[0]) {
-            if (n > capacity) {
-                free(scratch);
-                capacity = n;
-                scratch = tc_alloc(n, sizeof *scratch);
-                if (!scratch) {
-                    atomic_store(&b->no_memory, true);
-                    return;
-                }
-            }
-            e = scratch;
+    qsort(e, n, sizeof *e, entry_compare);
+    for (size_t i = 0, j; i < n; i = j) {
+        for (j = i + 1; j < n && e[j].key == e[i].key && e[j].least == e[i].least; j++) {
         }
-        for (size_t i = 0; i < n; i++) {
-            uint32_t face = b->item[first + i];
-            const int32_t *t = b->tet + 4 * (size_t)(face >> 2);
-            int32_t key[3];
-            face_key(key, t, face & 3);
-            e[i] = (entry){(uint64_t)key[1] << 32 | (uint32_t)key[2], (uint32_t)t[face & 3], face};
-        }
-        entry_sort(e, n);
-        for (size_t i = 0, j; i < n; i = j) {
-            for (j = i + 1; j < n && e[j].key == e[i].key; j++) {
-            }
-            link_run(b, e + i, j - i);
-        }
+        link_run(b, e + i, j - i);
     }
-    free(scratch);
+}
+
+static bool make_room(scratch *s, size_t n_entry, size_t n_slot)
+{
+    if (n_entry > s->n_entry) {
+        free(s->entry);
+        s->entry = tc_alloc(n_entry, sizeof *s->entry);
+        s->n_entry = s->entry ? n_entry : 0;
+    }
+    if (n_slot > s->n_slot) {
+        free(s->slot);
+        s->slot = tc_alloc(n_slot, sizeof *s->slot);
+        s->n_slot = s->slot ? n_slot : 0;
+    }
+    return s->n_entry >= n_entry && s->n_slot >= n_slot;
+}
+
+static void link_parts(void *context, size_t begin, size_t end, int worker)
+{
+    build *b = context;
+    scratch *s = &b->scratch[worker];
+    for (size_t part = begin; part < end; part++) {
+        size_t n_item = b->part[part + 1] - b->part[part], n = 0, n_slot = 16;
+        while (n_slot < 4 * n_item) /* half of an entry for each slot, on average */
+            n_slot *= 2;
+        if (!make_room(s, 3 * n_item, n_slot)) {
+            atomic_store(&b->no_memory, true);
+            return;
+        }
+        for (size_t i = 0; i < n_item; i++)
+            n += add_faces(s->entry + n, b, b->item[b->part[part] + i]);
+        if (n >= n_slot || !link_by_hash(b, s->entry, n, s->slot, n_slot))
+            link_by_sorting(b, s->entry, n);
+    }
 }
 
 /* The face of tet u that is face f of tet t. */
@@ -269,50 +391,71 @@ static size_t unlink_one_side(const int32_t *tet, int32_t *neighbour, size_t n_t
     return n;
 }
 
+/* Puts the faces into parts. */
+static tc_status divide(build *b, size_t **part, size_t n_block, int threads, tc_error *err)
+{
+    const tc_adjacency_input *in = b->in;
+    *part = tc_alloc(b->n_part + 1, sizeof **part);
+    b->start = tc_calloc(n_block, b->n_part * sizeof *b->start);
+    if (!*part || !b->start)
+        return tc_fail_memory(err, "linking cells", n_block * b->n_part, sizeof *b->start);
+    tc_parallel_for(n_block, 1, threads, count_range, b);
+    size_t sum = 0;
+    for (size_t p = 0; p < b->n_part; p++) {
+        (*part)[p] = sum;
+        for (size_t block = 0; block < n_block; block++) {
+            size_t count = b->start[block * b->n_part + p];
+            b->start[block * b->n_part + p] = sum;
+            sum += count;
+        }
+    }
+    (*part)[b->n_part] = sum;
+    b->part = *part;
+    b->item = tc_alloc(sum, sizeof *b->item);
+    if (!b->item)
+        return tc_fail_memory(err, "linking cells", sum, sizeof *b->item);
+    tc_parallel_for(n_block, 1, in->threads, scatter_range, b);
+    return TC_OK;
+}
+
 tc_status tc_adjacency_build(int32_t *neighbour, uint8_t *duplicate, tc_adjacency_result *result,
                              const tc_adjacency_input *in, tc_error *err)
 {
     tc_status status = TC_OK;
-    size_t n_item = 0;
-    uint32_t *item = NULL, *start = tc_calloc(in->n_vertex + 2, sizeof *start);
-    atomic_uchar *mark = tc_calloc(in->n_tet, sizeof *mark);
+    const size_t n_worker = (size_t)tc_threads(in->threads), n_block = in->n_tet < CHUNK ? 1 : n_worker;
+    size_t *part = NULL;
     *result = (tc_adjacency_result){0};
-    if (!start || !mark) {
-        status = tc_fail_memory(err, "linking cells", in->n_vertex + in->n_tet, sizeof *start);
-        goto done;
-    }
-    /* counts go two places up: after the scatter start[v] is where bucket v begins */
-    for (size_t t = 0; t < in->n_tet; t++)
-        for (int f = 0; f < 4; f++)
-            if (t >= in->first || neighbour[4 * t + (size_t)f] < 0)
-                start[face_min(in->tet + 4 * t, f) + 2]++, n_item++;
-    for (size_t v = 0; v < in->n_vertex; v++)
-        start[v + 2] += start[v + 1];
-    item = tc_alloc(n_item, sizeof *item);
-    if (!item) {
-        status = tc_fail_memory(err, "linking cells", n_item, sizeof *item);
-        goto done;
-    }
-    for (size_t t = 0; t < in->n_tet; t++)
-        for (int f = 0; f < 4; f++)
-            if (t >= in->first || neighbour[4 * t + (size_t)f] < 0)
-                item[start[face_min(in->tet + 4 * t, f) + 1]++] = (uint32_t)(4 * t + (size_t)f);
-
-    build b = {.neighbour = neighbour, .tet = in->tet, .start = start, .item = item, .duplicate = mark};
+    build b = {.in = in, .neighbour = neighbour, .block = in->n_tet / n_block + 1};
+    size_t vertices = PART_VERTICES;
+    while (in->n_vertex / vertices >= MOST_PARTS)
+        vertices *= 2;
+    for (size_t i = vertices; i > 1; i /= 2)
+        b.shift++;
+    b.n_part = in->n_vertex / vertices + 1;
+    b.scratch = tc_calloc(n_worker, sizeof *b.scratch);
+    b.duplicate = tc_calloc(in->n_tet, sizeof *b.duplicate);
     atomic_init(&b.n_duplicate, 0);
     atomic_init(&b.n_many, 0);
     atomic_init(&b.n_one_side, 0);
     atomic_init(&b.no_memory, false);
-    tc_parallel_for(in->n_vertex, 1024, in->threads, link_buckets, &b);
+    if (!b.scratch || !b.duplicate) {
+        status = tc_fail_memory(err, "linking cells", in->n_tet, sizeof *b.duplicate);
+        goto done;
+    }
+    status = divide(&b, &part, n_block, in->threads, err);
+    if (status != TC_OK)
+        goto done;
+    tc_parallel_for(b.n_part, 1, in->threads, link_parts, &b);
     if (atomic_load(&b.no_memory)) {
-        status = tc_fail_memory(err, "linking the faces around one vertex", n_item, sizeof(entry));
+        status = tc_fail_memory(err, "linking the faces around some vertices", in->n_tet, 2 * sizeof(entry));
         goto done;
     }
     result->duplicates = atomic_load(&b.n_duplicate);
     result->many = atomic_load(&b.n_many);
-    if (duplicate)
-        for (size_t t = 0; t < in->n_tet; t++)
-            duplicate[t] = atomic_load_explicit(&mark[t], memory_order_relaxed);
+    if (duplicate && result->duplicates == 0)
+        memset(duplicate, 0, in->n_tet);
+    for (size_t t = 0; duplicate && result->duplicates > 0 && t < in->n_tet; t++)
+        duplicate[t] = atomic_load_explicit(&b.duplicate[t], memory_order_relaxed);
     if (atomic_load(&b.n_one_side) > 0 && result->duplicates == 0) {
         if (in->n_zero_volume > 0)
             status = turn_flat(in, neighbour, &result->reoriented, err);
@@ -320,38 +463,98 @@ tc_status tc_adjacency_build(int32_t *neighbour, uint8_t *duplicate, tc_adjacenc
             result->one_side = unlink_one_side(in->tet, neighbour, in->n_tet);
     }
 done:
-    free(start);
-    free(item);
-    free(mark);
+    for (size_t i = 0; b.scratch && i < n_worker; i++) {
+        free(b.scratch[i].entry);
+        free(b.scratch[i].slot);
+    }
+    free(b.scratch);
+    free(b.start);
+    free(b.item);
+    free(b.duplicate);
+    free(part);
     return status;
 }
 
-tc_status tc_adjacency_components(size_t *out, const int32_t *neighbour, size_t n_tet, tc_error *err)
+/* ---------------------------------------------------------------------------------------------------- components */
+
+/* A forest: each tet leads to one before it, or is a root. */
+typedef struct forest {
+    atomic_int *parent;
+    const int32_t *neighbour;
+    size_t n;
+    atomic_size_t roots;
+} forest;
+
+static int root_of(const forest *j, int t)
 {
-    size_t n = 0;
-    uint8_t *seen = tc_calloc(n_tet, 1);
-    int32_t *stack = tc_alloc(n_tet, sizeof *stack);
-    if (!seen || !stack) {
-        free(seen);
-        free(stack);
-        return tc_fail_memory(err, "counting parts", n_tet, 5);
+    for (;;) {
+        int p = atomic_load_explicit(&j->parent[t], memory_order_relaxed);
+        if (p == t)
+            return t;
+        int q = atomic_load_explicit(&j->parent[p], memory_order_relaxed);
+        if (q == p)
+            return p;
+        /* what another thread may have put there meanwhile leads to the same root */
+        atomic_store_explicit(&j->parent[t], q, memory_order_relaxed);
+        t = q;
     }
-    for (size_t root = 0; root < n_tet; root++) {
-        if (seen[root])
-            continue;
-        n++;
-        size_t top = 0;
-        stack[top++] = (int32_t)root;
-        seen[root] = 1;
-        while (top > 0) {
-            const int32_t *w = neighbour + 4 * (size_t)stack[--top];
-            for (int f = 0; f < 4; f++)
-                if (w[f] >= 0 && (size_t)w[f] < n_tet && !seen[w[f]])
-                    seen[w[f]] = 1, stack[top++] = w[f];
+}
+
+/* The first neighbour before each tet needs no search for roots. */
+static void plant_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const forest *j = context;
+    for (size_t t = begin; t < end; t++) {
+        int least = (int)t;
+        for (int f = 0; f < 4; f++) {
+            int u = j->neighbour[4 * t + (size_t)f];
+            least = u >= 0 && u < least ? u : least;
         }
+        atomic_store_explicit(&j->parent[t], least, memory_order_relaxed);
     }
-    *out = n;
-    free(seen);
-    free(stack);
+}
+
+static void join_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const forest *j = context;
+    for (size_t t = begin; t < end; t++)
+        for (int f = 0; f < 4; f++) {
+            int a = (int)t, b = j->neighbour[4 * t + (size_t)f];
+            if (b < 0 || b >= a)
+                continue;
+            for (;;) {
+                a = root_of(j, a), b = root_of(j, b);
+                if (a == b)
+                    break;
+                int more = a > b ? a : b, less = a > b ? b : a;
+                if (atomic_compare_exchange_strong(&j->parent[more], &(int){more}, less))
+                    break;
+            }
+        }
+}
+
+static void root_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    forest *j = context;
+    size_t n = 0;
+    for (size_t t = begin; t < end; t++)
+        n += atomic_load_explicit(&j->parent[t], memory_order_relaxed) == (int)t;
+    atomic_fetch_add(&j->roots, n);
+}
+
+tc_status tc_adjacency_components(size_t *out, const int32_t *neighbour, size_t n_tet, int threads, tc_error *err)
+{
+    forest j = {.parent = tc_alloc(n_tet, sizeof *j.parent), .neighbour = neighbour, .n = n_tet};
+    atomic_init(&j.roots, 0);
+    if (!j.parent)
+        return tc_fail_memory(err, "counting parts", n_tet, sizeof *j.parent);
+    tc_parallel_for(n_tet, CHUNK, threads, plant_range, &j);
+    tc_parallel_for(n_tet, CHUNK, threads, join_range, &j);
+    tc_parallel_for(n_tet, CHUNK, threads, root_range, &j);
+    *out = atomic_load(&j.roots);
+    free(j.parent);
     return TC_OK;
 }

@@ -5,12 +5,13 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "mesh/sort.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { BITS = 21, DIGIT = 11, BINS = 1 << DIGIT, PASSES = (3 * BITS + DIGIT - 1) / DIGIT };
+enum { BITS = 21, CHUNK = 8192 };
 
 /* Bits of x, 21 of them, two places apart. */
 static uint64_t spread(uint64_t x)
@@ -38,50 +39,6 @@ uint64_t tc_hilbert(uint32_t x, uint32_t y, uint32_t z)
     t ^= t >> 1, t ^= t >> 2, t ^= t >> 4, t ^= t >> 8, t ^= t >> 16;
     x ^= t, y ^= t, z ^= t;
     return spread(x) << 2 | spread(y) << 1 | spread(z);
-}
-
-tc_status tc_sort_keys(uint64_t *key, uint32_t *id, size_t n, tc_error *err)
-{
-    tc_status status = TC_OK;
-    uint64_t *key2 = tc_alloc(n, sizeof *key2);
-    uint32_t *id2 = tc_alloc(n, sizeof *id2);
-    size_t(*count)[BINS] = tc_calloc(PASSES, sizeof *count);
-    if (!key2 || !id2 || !count) {
-        status = tc_fail_memory(err, "sorting cells", n, sizeof *key2 + sizeof *id2);
-        goto done;
-    }
-    for (size_t i = 0; i < n; i++)
-        for (int p = 0; p < PASSES; p++)
-            count[p][key[i] >> (p * DIGIT) & (BINS - 1)]++;
-    uint64_t *from = key, *to = key2;
-    uint32_t *id_from = id, *id_to = id2;
-    for (int p = 0; p < PASSES; p++) {
-        if (n == 0 || count[p][from[0] >> (p * DIGIT) & (BINS - 1)] == n)
-            continue;
-        size_t sum = 0;
-        for (int b = 0; b < BINS; b++) {
-            size_t c = count[p][b];
-            count[p][b] = sum;
-            sum += c;
-        }
-        for (size_t i = 0; i < n; i++) {
-            size_t at = count[p][from[i] >> (p * DIGIT) & (BINS - 1)]++;
-            to[at] = from[i], id_to[at] = id_from[i];
-        }
-        uint64_t *k = from;
-        from = to, to = k;
-        uint32_t *d = id_from;
-        id_from = id_to, id_to = d;
-    }
-    if (from != key) {
-        memcpy(key, from, n * sizeof *key);
-        memcpy(id, id_from, n * sizeof *id);
-    }
-done:
-    free(key2);
-    free(id2);
-    free(count);
-    return status;
 }
 
 void tc_points_bounds(double bounds[6], const double *vertex, size_t n)
@@ -156,8 +113,8 @@ static tc_status curve(uint32_t **id, size_t n, const double *vertex, const int3
     if (!j.key || !j.id) {
         status = tc_fail_memory(err, "ordering cells", n, sizeof *j.key + sizeof *j.id);
     } else {
-        tc_parallel_for(n, 4096, threads, make_keys, &j);
-        status = tc_sort_keys(j.key, j.id, n, err);
+        tc_parallel_for(n, CHUNK, threads, make_keys, &j);
+        status = tc_sort_keys(j.key, j.id, n, threads, err);
     }
     free(j.key);
     if (status == TC_OK)
@@ -165,6 +122,57 @@ static tc_status curve(uint32_t **id, size_t n, const double *vertex, const int3
     else
         free(j.id);
     return status;
+}
+
+/* One array after another from an old order to a new one. */
+typedef struct move {
+    const uint32_t *id; /* new place → old */
+    int32_t *rank;      /* old place → new */
+    double *to, *scalar_to;
+    int32_t *tet_to;
+    const double *from, *scalar_from; /* scalars: NULL, none */
+    const int32_t *tet_from;
+    int32_t *name; /* to be renamed by rank; below 0 it stays */
+} move;
+
+static void move_vertices(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const move *j = context;
+    for (size_t i = begin; i < end; i++) {
+        j->rank[j->id[i]] = (int32_t)i;
+        memcpy(j->to + 3 * i, j->from + 3 * (size_t)j->id[i], 3 * sizeof *j->to);
+        if (j->scalar_from)
+            j->scalar_to[i] = j->scalar_from[j->id[i]];
+    }
+}
+
+static void move_tets(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const move *j = context;
+    for (size_t i = begin; i < end; i++) {
+        if (j->rank)
+            j->rank[j->id[i]] = (int32_t)i;
+        memcpy(j->tet_to + 4 * i, j->tet_from + 4 * (size_t)j->id[i], 4 * sizeof *j->tet_to);
+        if (j->scalar_from)
+            j->scalar_to[i] = j->scalar_from[j->id[i]];
+    }
+}
+
+static void rename_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const move *j = context;
+    for (size_t i = begin; i < end; i++)
+        if (j->name[i] >= 0)
+            j->name[i] = j->rank[j->name[i]];
+}
+
+static void rename_all(move *j, int32_t *name, size_t n, int threads)
+{
+    j->name = name;
+    tc_parallel_for(n, 4 * CHUNK, threads, rename_range, j);
 }
 
 static tc_status order_vertices(tc_mesh *mesh, const double *bounds, int threads, tc_error *err)
@@ -175,34 +183,30 @@ static tc_status order_vertices(tc_mesh *mesh, const double *bounds, int threads
     tc_status status = curve(&id, n, mesh->vertex, NULL, bounds, threads, err);
     if (status != TC_OK)
         return status;
-    double *vertex = tc_alloc(n, 3 * sizeof *vertex), *scalar = point_data ? tc_alloc(n, sizeof *scalar) : NULL;
-    int32_t *rank = tc_alloc(n, sizeof *rank);
-    if (!vertex || !rank || (point_data && !scalar)) {
-        free(vertex);
-        free(scalar);
-        status = tc_fail_memory(err, "ordering vertices", n, 4 * sizeof *vertex);
+    move j = {.id = id,
+              .rank = tc_alloc(n, sizeof *j.rank),
+              .to = tc_alloc(n, 3 * sizeof *j.to),
+              .scalar_to = point_data ? tc_alloc(n, sizeof *j.scalar_to) : NULL,
+              .from = mesh->vertex,
+              .scalar_from = point_data ? mesh->scalar : NULL};
+    if (!j.to || !j.rank || (point_data && !j.scalar_to)) {
+        free(j.to);
+        free(j.scalar_to);
+        status = tc_fail_memory(err, "ordering vertices", n, 4 * sizeof *j.to);
         goto done;
     }
-    for (size_t i = 0; i < n; i++) {
-        rank[id[i]] = (int32_t)i;
-        memcpy(vertex + 3 * i, mesh->vertex + 3 * (size_t)id[i], 3 * sizeof *vertex);
-        if (point_data)
-            scalar[i] = mesh->scalar[id[i]];
-    }
+    tc_parallel_for(n, CHUNK, threads, move_vertices, &j);
     free(mesh->vertex);
-    mesh->vertex = vertex;
+    mesh->vertex = j.to;
     if (point_data) {
         free(mesh->scalar);
-        mesh->scalar = scalar;
+        mesh->scalar = j.scalar_to;
     }
-    for (size_t i = 0; i < 4 * mesh->n_tet; i++)
-        mesh->tet[i] = rank[mesh->tet[i]];
-    for (size_t s = 0; s < mesh->n_vertex_source; s++)
-        if (mesh->vertex_of_source[s] >= 0)
-            mesh->vertex_of_source[s] = rank[mesh->vertex_of_source[s]];
+    rename_all(&j, mesh->tet, 4 * mesh->n_tet, threads);
+    rename_all(&j, mesh->vertex_of_source, mesh->n_vertex_source, threads);
 done:
     free(id);
-    free(rank);
+    free(j.rank);
     return status;
 }
 
@@ -214,32 +218,29 @@ static tc_status order_cells(tc_mesh *mesh, const double *bounds, int threads, t
     tc_status status = curve(&id, n, mesh->vertex, mesh->tet, bounds, threads, err);
     if (status != TC_OK)
         return status;
-    int32_t *tet = tc_alloc(n, 4 * sizeof *tet), *rank = tc_alloc(n, sizeof *rank);
-    double *scalar = cell_data ? tc_alloc(n, sizeof *scalar) : NULL;
-    if (!tet || !rank || (cell_data && !scalar)) {
-        free(tet);
-        free(scalar);
-        status = tc_fail_memory(err, "ordering cells", n, 7 * sizeof *tet);
+    move j = {.id = id,
+              .rank = tc_alloc(n, sizeof *j.rank),
+              .tet_to = tc_alloc(n, 4 * sizeof *j.tet_to),
+              .scalar_to = cell_data ? tc_alloc(n, sizeof *j.scalar_to) : NULL,
+              .tet_from = mesh->tet,
+              .scalar_from = cell_data ? mesh->scalar : NULL};
+    if (!j.tet_to || !j.rank || (cell_data && !j.scalar_to)) {
+        free(j.tet_to);
+        free(j.scalar_to);
+        status = tc_fail_memory(err, "ordering cells", n, 7 * sizeof *j.tet_to);
         goto done;
     }
-    for (size_t i = 0; i < n; i++) {
-        rank[id[i]] = (int32_t)i;
-        memcpy(tet + 4 * i, mesh->tet + 4 * (size_t)id[i], 4 * sizeof *tet);
-        if (cell_data)
-            scalar[i] = mesh->scalar[id[i]];
-    }
+    tc_parallel_for(n, CHUNK, threads, move_tets, &j);
     free(mesh->tet);
-    mesh->tet = tet;
+    mesh->tet = j.tet_to;
     if (cell_data) {
         free(mesh->scalar);
-        mesh->scalar = scalar;
+        mesh->scalar = j.scalar_to;
     }
-    for (size_t s = 0; s < mesh->n_tet_source; s++)
-        if (mesh->tet_of_source[s] >= 0)
-            mesh->tet_of_source[s] = rank[mesh->tet_of_source[s]];
+    rename_all(&j, mesh->tet_of_source, mesh->n_tet_source, threads);
 done:
     free(id);
-    free(rank);
+    free(j.rank);
     return status;
 }
 
@@ -263,8 +264,8 @@ tc_status tc_tets_order(int32_t *tet, size_t n, const double *vertex, const doub
         status = tc_fail_memory(err, "ordering imaginary cells", n, 4 * sizeof *copy);
     } else {
         memcpy(copy, tet, n * 4 * sizeof *copy);
-        for (size_t i = 0; i < n; i++)
-            memcpy(tet + 4 * i, copy + 4 * (size_t)id[i], 4 * sizeof *copy);
+        move j = {.id = id, .tet_to = tet, .tet_from = copy};
+        tc_parallel_for(n, CHUNK, threads, move_tets, &j);
     }
     free(copy);
     free(id);

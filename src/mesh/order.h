@@ -7,10 +7,6 @@
 /* Position of cell (x, y, z), 21 bits each, on a Hilbert curve through the 2^21 cube: 63 bits. */
 uint64_t tc_hilbert(uint32_t x, uint32_t y, uint32_t z);
 
-/* Sorts key [n] ascending and carries id [n] along; stable. LSD radix sort; digits that all keys share are skipped.
- * Errors: TC_E_MEMORY (12 B an item of scratch). */
-tc_status tc_sort_keys(uint64_t *key, uint32_t *id, size_t n, tc_error *err);
-
 /* Orders an unlinked mesh: vertices by position, tets by centroid; scalars and maps follow.
  * Errors: TC_E_MEMORY. Cost: O(n), threaded. */
 tc_status tc_mesh_order(tc_mesh *mesh, int threads, tc_error *err);

@@ -95,7 +95,7 @@ static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const
     double t3 = tc_now_ms();
     tc_mesh_report *r = &next.report;
     if (status == TC_OK)
-        status = tc_adjacency_components(&r->n_component, next.neighbour, next.n_tet, err);
+        status = tc_adjacency_components(&r->n_component, next.neighbour, next.n_tet, o->threads, err);
     if (status == TC_OK)
         status = tc_mesh_measure(&next, o->threads, err);
     if (status != TC_OK) {

@@ -52,114 +52,262 @@ static bool same_value(double a, double b)
     return a == b || (isnan(a) && isnan(b));
 }
 
-tc_status tc_points_merge(int32_t *same, size_t *merged, const double *vertex, const double *scalar, const uint8_t *use,
-                          size_t n, tc_error *err)
+enum { CHUNK = 8192 };
+
+/* Points in a hash table with open addressing. A slot that holds a point of some place goes on to hold one of that place, the
+ * first that has come by, so that the end does not depend on who came when. */
+typedef struct merge {
+    int32_t *same;
+    atomic_int *slot; /* point + 1, or 0 */
+    size_t n_slot;    /* a power of two, at most 2^32 */
+    const double *vertex, *scalar;
+    atomic_uchar *use;
+    atomic_size_t merged;
+} merge;
+
+static bool is_used(atomic_uchar *use, size_t v)
 {
-    *merged = 0;
-    size_t capacity = 16;
-    while (capacity < 2 * n)
-        capacity *= 2;
-    int32_t *table = tc_alloc(capacity, sizeof *table);
-    if (!table)
-        return tc_fail_memory(err, "merging points", capacity, sizeof *table);
-    memset(table, 0xff, capacity * sizeof *table);
-    for (size_t v = 0; v < n; v++) {
-        same[v] = (int32_t)v;
-        if (!use[v])
+    return atomic_load_explicit(&use[v], memory_order_relaxed) != 0;
+}
+
+static void enter_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const merge *j = context;
+    for (size_t v = begin; v < end; v++) {
+        if (!is_used(j->use, v))
             continue;
-        const double *p = vertex + 3 * v;
+        const double *p = j->vertex + 3 * v;
         uint64_t h = mix(mix(mix(0, bits_of(p[0])), bits_of(p[1])), bits_of(p[2]));
-        if (scalar)
-            h = mix(h, bits_of(scalar[v]));
-        size_t i = (size_t)(h ^ h >> 32) & (capacity - 1);
-        for (; table[i] >= 0; i = (i + 1) & (capacity - 1)) {
-            size_t w = (size_t)table[i];
-            if (same_point(p, vertex + 3 * w) && (!scalar || same_value(scalar[v], scalar[w]))) {
-                same[v] = table[i];
-                ++*merged;
+        if (j->scalar)
+            h = mix(h, bits_of(j->scalar[v]));
+        const int mine = (int)v + 1;
+        size_t i = (size_t)(h ^ h >> 32) & (j->n_slot - 1);
+        for (;; i = (i + 1) & (j->n_slot - 1)) {
+            int there = atomic_load_explicit(&j->slot[i], memory_order_relaxed);
+            if (there == 0 && atomic_compare_exchange_strong(&j->slot[i], &there, mine))
                 break;
+            size_t w = (size_t)there - 1;
+            if (!same_point(p, j->vertex + 3 * w) || (j->scalar && !same_value(j->scalar[v], j->scalar[w])))
+                continue;
+            while (mine < there && !atomic_compare_exchange_weak(&j->slot[i], &there, mine)) {
             }
+            break;
         }
-        if (table[i] < 0)
-            table[i] = (int32_t)v;
+        j->same[v] = (int32_t)(uint32_t)i;
     }
-    free(table);
+}
+
+static void leave_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    merge *j = context;
+    size_t merged = 0;
+    for (size_t v = begin; v < end; v++) {
+        j->same[v] = is_used(j->use, v)
+                         ? atomic_load_explicit(&j->slot[(uint32_t)j->same[v]], memory_order_relaxed) - 1
+                         : (int32_t)v;
+        merged += j->same[v] != (int32_t)v;
+    }
+    atomic_fetch_add(&j->merged, merged);
+}
+
+/* Points by coordinates.
+ *   same [n] gets for each point in use the first such point with equal coordinates (and equal scalar where scalar is not
+ *   NULL), for the others the point itself. *merged: how many got another than themselves.
+ * Errors: TC_E_MEMORY. Cost: O(n), 8 to 16 B a point of scratch. */
+static tc_status merge_points(int32_t *same, size_t *merged, const double *vertex, const double *scalar,
+                              atomic_uchar *use, size_t n, int threads, tc_error *err)
+{
+    merge j = {.same = same, .n_slot = 16, .vertex = vertex, .scalar = scalar, .use = use};
+    while (j.n_slot < 2 * n)
+        j.n_slot *= 2;
+    j.slot = tc_calloc(j.n_slot, sizeof *j.slot);
+    atomic_init(&j.merged, 0);
+    if (!j.slot)
+        return tc_fail_memory(err, "merging points", j.n_slot, sizeof *j.slot);
+    tc_parallel_for(n, CHUNK, threads, enter_range, &j);
+    tc_parallel_for(n, CHUNK, threads, leave_range, &j);
+    *merged = atomic_load(&j.merged);
+    free(j.slot);
     return TC_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------- orientation */
-
-typedef struct turn {
-    const double *vertex;
-    int32_t *tet;
-    atomic_size_t reoriented, zero;
-} turn;
-
-static void turn_range(void *context, size_t begin, size_t end, int worker)
-{
-    (void)worker;
-    turn *j = context;
-    const double *x = j->vertex;
-    size_t reoriented = 0, zero = 0;
-    for (size_t t = begin; t < end; t++) {
-        int32_t *v = j->tet + 4 * t;
-        int sign = tc_orient3d(x + 3 * (size_t)v[0], x + 3 * (size_t)v[1], x + 3 * (size_t)v[2], x + 3 * (size_t)v[3]);
-        if (sign < 0) {
-            int32_t k = v[2];
-            v[2] = v[3], v[3] = k;
-            reoriented++;
-        }
-        zero += sign == 0;
-    }
-    atomic_fetch_add(&j->reoriented, reoriented);
-    atomic_fetch_add(&j->zero, zero);
-}
-
 /* ------------------------------------------------------------------------------------------------------ repair */
+
+typedef struct fix {
+    const tc_mesh *in;
+    tc_mesh *out;
+    uint8_t *finite;   /* [points] */
+    atomic_uchar *use; /* [points] by tets that are kept */
+    int32_t *same;     /* [points] as merge_points gives it */
+    size_t *kept;      /* of each chunk of tets: how many are kept; then, how many before it */
+    size_t *numbered;  /* the same of points */
+    atomic_size_t degenerate, nonfinite, reoriented, zero;
+} fix;
 
 static bool repeats(int32_t a, int32_t b, int32_t c, int32_t d)
 {
     return a == b || a == c || a == d || b == c || b == d || c == d;
 }
 
-static bool finite_point(const double *p)
+static void finite_range(void *context, size_t begin, size_t end, int worker)
 {
-    return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+    (void)worker;
+    const fix *j = context;
+    for (size_t v = begin; v < end; v++) {
+        const double *p = j->in->vertex + 3 * v;
+        j->finite[v] = isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+    }
 }
 
-/* Numbers the vertices in use (of source `in`), copies them and their data to out, and rewrites out->tet. */
-static tc_status compact(tc_mesh *out, const tc_mesh *in, const int32_t *same, uint8_t *use, tc_error *err)
+static void use_point(const fix *j, int32_t v)
 {
-    size_t n = 0, n_tet = out->n_tet;
-    memset(use, 0, in->n_vertex);
-    for (size_t i = 0; i < 4 * n_tet; i++)
-        use[out->tet[i]] = 1;
-    for (size_t v = 0; v < in->n_vertex; v++)
-        out->vertex_of_source[v] = use[v] ? (int32_t)n++ : -1;
-    for (size_t v = 0; v < in->n_vertex; v++)
-        if (!use[v] && same[v] != (int32_t)v && use[same[v]])
-            out->vertex_of_source[v] = out->vertex_of_source[same[v]];
-    size_t n_scalar = in->association == TC_CELL_DATA ? n_tet : n;
-    out->n_vertex = n;
-    out->vertex = tc_alloc(n, 3 * sizeof(double));
-    out->scalar = tc_alloc(n_scalar, sizeof(double));
-    if (!out->vertex || !out->scalar)
-        return tc_fail_memory(err, "the repaired mesh", n + n_scalar, 3 * sizeof(double));
-    for (size_t v = 0; v < in->n_vertex; v++) {
-        if (!use[v])
-            continue;
-        size_t w = (size_t)out->vertex_of_source[v];
-        for (int k = 0; k < 3; k++)
-            out->vertex[3 * w + (size_t)k] = in->vertex[3 * v + (size_t)k] + 0.0; /* -0 becomes 0 */
-        if (in->association != TC_CELL_DATA)
-            out->scalar[w] = in->scalar[v];
+    if (!is_used(j->use, (size_t)v))
+        atomic_store_explicit(&j->use[v], 1, memory_order_relaxed);
+}
+
+/* Which tets are kept as they are given. */
+static void judge_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    fix *j = context;
+    size_t degenerate = 0, nonfinite = 0;
+    for (size_t t = begin; t < end; t++) {
+        const int32_t *v = j->in->tet + 4 * t;
+        bool twice = repeats(v[0], v[1], v[2], v[3]);
+        bool finite = j->finite[v[0]] && j->finite[v[1]] && j->finite[v[2]] && j->finite[v[3]];
+        degenerate += twice;
+        nonfinite += !twice && !finite;
+        j->out->tet_of_source[t] = twice || !finite ? -1 : 0;
+        for (int i = 0; i < 4 && !twice && finite; i++)
+            use_point(j, v[i]);
     }
-    for (size_t i = 0; i < 4 * n_tet; i++)
-        out->tet[i] = out->vertex_of_source[out->tet[i]];
-    if (in->association == TC_CELL_DATA)
-        for (size_t t = 0; t < in->n_tet; t++)
-            if (out->tet_of_source[t] >= 0)
-                out->scalar[out->tet_of_source[t]] = in->scalar[t];
+    j->kept[begin / CHUNK] = end - begin - degenerate - nonfinite;
+    atomic_fetch_add(&j->degenerate, degenerate);
+    atomic_fetch_add(&j->nonfinite, nonfinite);
+}
+
+/* Which of them are kept now that points are merged. */
+static void judge_merged_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    fix *j = context;
+    size_t degenerate = 0;
+    for (size_t t = begin; t < end; t++) {
+        if (j->out->tet_of_source[t] < 0)
+            continue;
+        const int32_t *v = j->in->tet + 4 * t;
+        int32_t w[4];
+        for (int i = 0; i < 4; i++)
+            w[i] = j->same[v[i]];
+        bool twice = repeats(w[0], w[1], w[2], w[3]);
+        degenerate += twice;
+        if (twice)
+            j->out->tet_of_source[t] = -1;
+        for (int i = 0; i < 4 && !twice; i++)
+            use_point(j, w[i]);
+    }
+    j->kept[begin / CHUNK] -= degenerate;
+    atomic_fetch_add(&j->degenerate, degenerate);
+}
+
+static void count_points_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const fix *j = context;
+    size_t n = 0;
+    for (size_t v = begin; v < end; v++)
+        n += is_used(j->use, v);
+    j->numbered[begin / CHUNK] = n;
+}
+
+static void number_points_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const fix *j = context;
+    const tc_mesh *in = j->in;
+    size_t n = j->numbered[begin / CHUNK];
+    for (size_t v = begin; v < end; v++) {
+        bool used = is_used(j->use, v);
+        j->out->vertex_of_source[v] = used ? (int32_t)n : -1;
+        if (!used)
+            continue;
+        for (int k = 0; k < 3; k++)
+            j->out->vertex[3 * n + (size_t)k] = in->vertex[3 * v + (size_t)k] + 0.0; /* -0 becomes 0 */
+        if (in->association != TC_CELL_DATA)
+            j->out->scalar[n] = in->scalar[v];
+        n++;
+    }
+}
+
+static void number_merged_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const fix *j = context;
+    for (size_t v = begin; v < end; v++)
+        if (j->same[v] != (int32_t)v) /* then v itself is not used, and no other entry that is read here is written */
+            j->out->vertex_of_source[v] = j->out->vertex_of_source[j->same[v]];
+}
+
+/* Writes the tets that are kept, turned to positive volume. */
+static void write_range(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    fix *j = context;
+    tc_mesh *out = j->out;
+    const double *x = out->vertex;
+    size_t n = j->kept[begin / CHUNK], reoriented = 0, zero = 0;
+    for (size_t t = begin; t < end; t++) {
+        if (out->tet_of_source[t] < 0)
+            continue;
+        int32_t *v = out->tet + 4 * n;
+        for (size_t i = 0; i < 4; i++)
+            v[i] = out->vertex_of_source[j->in->tet[4 * t + i]];
+        int sign = tc_orient3d(x + 3 * (size_t)v[0], x + 3 * (size_t)v[1], x + 3 * (size_t)v[2], x + 3 * (size_t)v[3]);
+        if (sign < 0) {
+            int32_t k = v[2];
+            v[2] = v[3], v[3] = k;
+        }
+        reoriented += sign < 0;
+        zero += sign == 0;
+        if (j->in->association == TC_CELL_DATA)
+            out->scalar[n] = j->in->scalar[t];
+        out->tet_of_source[t] = (int32_t)n++;
+    }
+    atomic_fetch_add(&j->reoriented, reoriented);
+    atomic_fetch_add(&j->zero, zero);
+}
+
+/* Counts of chunks become sums of those before; gives the sum of all. */
+static size_t sum_before(size_t *count, size_t n)
+{
+    size_t sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        size_t c = count[i];
+        count[i] = sum;
+        sum += c;
+    }
+    return sum;
+}
+
+/* Numbers the points in use and the tets that are kept, and writes them to out. */
+static tc_status write_kept(fix *j, size_t n_merged, int threads, tc_error *err)
+{
+    tc_mesh *out = j->out;
+    const size_t nv = j->in->n_vertex, nt = j->in->n_tet;
+    tc_parallel_for(nv, CHUNK, threads, count_points_range, j);
+    out->n_vertex = sum_before(j->numbered, nv / CHUNK + 1);
+    size_t n_scalar = out->association == TC_CELL_DATA ? out->n_tet : out->n_vertex;
+    out->vertex = tc_alloc(out->n_vertex, 3 * sizeof(double));
+    out->scalar = tc_alloc(n_scalar, sizeof(double));
+    out->tet = tc_alloc(out->n_tet, 4 * sizeof *out->tet);
+    if (!out->vertex || !out->scalar || !out->tet)
+        return tc_fail_memory(err, "the repaired mesh", 3 * out->n_vertex + n_scalar + 2 * out->n_tet, sizeof(double));
+    tc_parallel_for(nv, CHUNK, threads, number_points_range, j);
+    if (n_merged > 0)
+        tc_parallel_for(nv, CHUNK, threads, number_merged_range, j);
+    tc_parallel_for(nt, CHUNK, threads, write_range, j);
     return TC_OK;
 }
 
@@ -168,55 +316,39 @@ tc_status tc_mesh_repair(tc_mesh *out, const tc_mesh *in, int threads, tc_error 
     tc_status status = TC_OK;
     tc_mesh_report *r = &out->report;
     const size_t nv = in->n_vertex, nt = in->n_tet;
-    uint8_t *use = tc_calloc(nv, 1);
-    int32_t *same = tc_alloc(nv, sizeof *same);
+    fix j = {.in = in,
+             .out = out,
+             .finite = tc_alloc(nv, 1),
+             .use = tc_calloc(nv, sizeof *j.use),
+             .same = tc_alloc(nv, sizeof *j.same),
+             .kept = tc_calloc(nt / CHUNK + 1, sizeof *j.kept),
+             .numbered = tc_calloc(nv / CHUNK + 1, sizeof *j.numbered)};
+    atomic_init(&j.degenerate, 0);
+    atomic_init(&j.nonfinite, 0);
+    atomic_init(&j.reoriented, 0);
+    atomic_init(&j.zero, 0);
     out->n_vertex_source = nv, out->n_tet_source = nt;
     out->association = in->association;
-    out->tet = tc_alloc(nt, 4 * sizeof *out->tet);
     out->vertex_of_source = tc_alloc(nv, sizeof *out->vertex_of_source);
     out->tet_of_source = tc_alloc(nt, sizeof *out->tet_of_source);
-    if (!use || !same || !out->tet || !out->vertex_of_source || !out->tet_of_source) {
-        status = tc_fail_memory(err, "checking the mesh", nt * 5 + nv * 2, sizeof(int32_t));
+    if (!j.finite || !j.use || !j.same || !j.kept || !j.numbered || !out->vertex_of_source || !out->tet_of_source) {
+        status = tc_fail_memory(err, "checking the mesh", nt + nv * 3, sizeof(int32_t));
         goto done;
     }
-    for (size_t t = 0; t < nt; t++) {
-        const int32_t *v = in->tet + 4 * t;
-        out->tet_of_source[t] = -1;
-        if (repeats(v[0], v[1], v[2], v[3])) {
-            r->dropped_degenerate++;
-            continue;
-        }
-        bool finite = true;
-        for (int i = 0; i < 4; i++)
-            finite = finite && finite_point(in->vertex + 3 * (size_t)v[i]);
-        if (!finite) {
-            r->dropped_nonfinite++;
-            continue;
-        }
-        for (int i = 0; i < 4; i++)
-            use[v[i]] = 1;
-        out->tet_of_source[t] = 0;
-    }
+    tc_parallel_for(nv, CHUNK, threads, finite_range, &j);
+    tc_parallel_for(nt, CHUNK, threads, judge_range, &j);
     const double *key = in->association == TC_CELL_DATA ? NULL : in->scalar;
-    for (size_t v = 0; v < nv; v++)
-        r->unused_vertices += !use[v];
-    status = tc_points_merge(same, &r->merged_vertices, in->vertex, key, use, nv, err);
+    status = merge_points(j.same, &r->merged_vertices, in->vertex, key, j.use, nv, threads, err);
     if (status != TC_OK)
         goto done;
-    for (size_t t = 0; t < nt; t++) {
-        if (out->tet_of_source[t] < 0)
-            continue;
-        const int32_t *v = in->tet + 4 * t;
-        int32_t a = same[v[0]], b = same[v[1]], c = same[v[2]], d = same[v[3]];
-        if (repeats(a, b, c, d)) {
-            r->dropped_degenerate++;
-            out->tet_of_source[t] = -1;
-            continue;
-        }
-        int32_t *w = out->tet + 4 * out->n_tet;
-        w[0] = a, w[1] = b, w[2] = c, w[3] = d;
-        out->tet_of_source[t] = (int32_t)out->n_tet++;
+    if (r->merged_vertices > 0) {
+        for (size_t v = 0; v < nv; v++)
+            atomic_store_explicit(&j.use[v], 0, memory_order_relaxed);
+        tc_parallel_for(nt, CHUNK, threads, judge_merged_range, &j);
     }
+    r->dropped_degenerate = atomic_load(&j.degenerate);
+    r->dropped_nonfinite = atomic_load(&j.nonfinite);
+    out->n_tet = sum_before(j.kept, nt / CHUNK + 1);
     if (out->n_tet == 0) {
         status = nt == 0 ? tc_fail(err, TC_E_MESH, "the mesh has no tetrahedra: there is nothing to render")
                          : tc_fail(err, TC_E_MESH,
@@ -225,19 +357,16 @@ tc_status tc_mesh_repair(tc_mesh *out, const tc_mesh *in, int threads, tc_error 
                                    nt, r->dropped_degenerate, r->dropped_nonfinite);
         goto done;
     }
-    status = compact(out, in, same, use, err);
-    if (status != TC_OK)
-        goto done;
+    status = write_kept(&j, r->merged_vertices, threads, err);
     r->unused_vertices = nv - r->merged_vertices - out->n_vertex;
-    turn j = {.vertex = out->vertex, .tet = out->tet};
-    atomic_init(&j.reoriented, 0);
-    atomic_init(&j.zero, 0);
-    tc_parallel_for(out->n_tet, 4096, threads, turn_range, &j);
     r->reoriented = atomic_load(&j.reoriented);
     r->zero_volume = atomic_load(&j.zero);
 done:
-    free(use);
-    free(same);
+    free(j.finite);
+    free(j.use);
+    free(j.same);
+    free(j.kept);
+    free(j.numbered);
     return status;
 }
 

@@ -13,7 +13,7 @@
  *   their faces are boundary;
  *   tets that repeat a vertex by that are dropped; points that no tet uses are dropped;
  *   tets of negative volume (exact sign) get vertices 2 and 3 swapped; tets of zero volume stay.
- * Errors: TC_E_MEMORY, TC_E_MESH (no tet is left; says why). Cost: O(n), threaded where it pays. */
+ * Errors: TC_E_MEMORY, TC_E_MESH (no tet is left; says why). Cost: O(n), threaded; the result does not depend on the threads. */
 tc_status tc_mesh_repair(tc_mesh *out, const tc_mesh *in, int threads, tc_error *err);
 
 /* Drops the tets with drop[t] != 0 (of an unlinked mesh without imaginary tets) and updates tet_of_source. */
@@ -21,12 +21,5 @@ void tc_mesh_drop_tets(tc_mesh *mesh, const uint8_t *drop);
 
 /* Frees vertex, tet, neighbour, scalar and the two maps, and nulls them. */
 void tc_mesh_finish_arrays(tc_mesh *mesh);
-
-/* Points by coordinates.
- *   same [n] gets for each point with use[v] != 0 the first such point with equal coordinates (and equal scalar
- *   where scalar is not NULL), for the others the point itself. *merged: how many got another than themselves.
- * Errors: TC_E_MEMORY. Cost: O(n), 4 to 8 B a point of scratch. */
-tc_status tc_points_merge(int32_t *same, size_t *merged, const double *vertex, const double *scalar, const uint8_t *use,
-                          size_t n, tc_error *err);
 
 #endif

@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "mesh/order.h"
+#include "mesh/sort.h"
 #include "mesh_shapes.h"
 
 /* All 8^3 cells of the 2^21 cube's coarse corner, by their place on the curve. */
@@ -46,25 +47,45 @@ static void the_curve_uses_all_21_bits_of_each_axis(void **state)
         }
 }
 
-static void keys_are_sorted_and_equal_keys_keep_their_order(void **state)
+/* Keys of full width, of few values, all in one bin but for some, all equal. */
+static uint64_t key_of(int kind, uint32_t i, uint64_t random)
+{
+    switch (kind) {
+    case 0:
+        return i % 3 ? random >> 1 : random >> 58;
+    case 1:
+        return random >> 60;
+    case 2:
+        return i % 5000 ? random >> 45 : random >> 1;
+    default:
+        return 12345;
+    }
+}
+
+static void keys_are_unsorted_or_equal_ones_change_places(void **state)
 {
     (void)state;
-    enum { N = 5000 };
-    uint64_t key[N], r = 7;
-    uint32_t id[N];
-    for (uint32_t i = 0; i < N; i++) {
-        r = r * 6364136223846793005u + 1442695040888963407u;
-        key[i] = i % 3 ? r >> 1 : r >> 58; /* full width, and many equal ones */
-        id[i] = i;
+    static const size_t count[] = {0, 1, 2, 25, 5000, 70000};
+    uint64_t *key = malloc(70000 * sizeof *key), *copy = malloc(70000 * sizeof *copy), r = 7;
+    uint32_t *id = malloc(70000 * sizeof *id);
+    assert_true(key && copy && id);
+    for (int round = 0; round < 6 * 4 * 2; round++) {
+        const size_t n = count[round % 6];
+        for (uint32_t i = 0; i < n; i++) {
+            r = r * 6364136223846793005u + 1442695040888963407u;
+            key[i] = copy[i] = key_of(round / 6 % 4, i, r);
+            id[i] = i;
+        }
+        assert_int_equal(tc_sort_keys(key, id, n, round < 24 ? 1 : 5, NULL), TC_OK);
+        for (size_t i = 0; i < n; i++) {
+            assert_true(copy[id[i]] == key[i]);
+            if (i > 0)
+                assert_true(key[i - 1] < key[i] || (key[i - 1] == key[i] && id[i - 1] < id[i]));
+        }
     }
-    uint64_t copy[N];
-    memcpy(copy, key, sizeof copy);
-    assert_int_equal(tc_sort_keys(key, id, N, NULL), TC_OK);
-    for (int i = 0; i < N; i++) {
-        assert_true(copy[id[i]] == key[i]);
-        if (i > 0)
-            assert_true(key[i - 1] < key[i] || (key[i - 1] == key[i] && id[i - 1] < id[i]));
-    }
+    free(key);
+    free(copy);
+    free(id);
 }
 
 static double field(const double *p)
@@ -185,7 +206,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(consecutive_places_on_the_curve_share_a_face),
         cmocka_unit_test(the_curve_uses_all_21_bits_of_each_axis),
-        cmocka_unit_test(keys_are_sorted_and_equal_keys_keep_their_order),
+        cmocka_unit_test(keys_are_unsorted_or_equal_ones_change_places),
         cmocka_unit_test(values_and_maps_follow_reordered_vertices),
         cmocka_unit_test(cell_values_follow_reordered_cells),
         cmocka_unit_test(neighbours_in_space_are_near_in_memory),

@@ -110,6 +110,63 @@ static void the_result_does_not_depend_on_the_number_of_threads(void **state)
     end(&a, &s);
 }
 
+/* A grid whose cells have points of their own, where some cells are bad and some there twice. */
+static shape loose_cells(void)
+{
+    shape grid = {0}, s = {0};
+    const int n[3] = {15, 15, 15};
+    shape_grid(&grid, n, NULL);
+    for (size_t t = 0; t < grid.n_tet; t++) {
+        int32_t v[4];
+        for (size_t i = 0; i < 4; i++) {
+            const double *p = grid.vertex + 3 * (size_t)grid.tet[4 * t + i];
+            v[i] = shape_vertex(&s, t % 11 == 3 && i == 2 ? (double)NAN : p[0], p[1], p[2]);
+        }
+        shape_tet(&s, v[0], v[1], v[2], t % 7 == 5 ? v[1] : v[3]);
+        if (t % 13 == 1)
+            shape_tet(&s, v[2], v[0], v[1], v[3]);
+    }
+    shape_finish(&grid);
+    return s;
+}
+
+static void repairs_depend_on_the_number_of_threads(void **state)
+{
+    (void)state;
+    shape s = loose_cells();
+    double *scalar = malloc(s.n_tet * sizeof *scalar);
+    assert_non_null(scalar);
+    for (size_t t = 0; t < s.n_tet; t++)
+        scalar[t] = (double)t;
+    tc_mesh *a = shape_mesh(&s, scalar, TC_CELL_DATA), *b = shape_mesh(&s, scalar, TC_CELL_DATA);
+    tc_prepare_options one = {.reentry = TC_REENTRY_PEEL, .threads = 1},
+                       many = {.reentry = TC_REENTRY_PEEL, .threads = 7};
+    assert_int_equal(tc_mesh_prepare(a, &one, NULL, NULL), TC_OK);
+    assert_int_equal(tc_mesh_prepare(b, &many, NULL, NULL), TC_OK);
+    shape_check_promises(a);
+    tc_mesh_report r = a->report, q = b->report;
+    assert_true(r.n_tet > 16384 - 16384 / 4 && r.n_vertex <= 16 * 16 * 16);
+    assert_true(r.dropped_degenerate > 1000 && r.dropped_nonfinite > 1000 && r.dropped_duplicate > 1000);
+    assert_int_equal(r.n_tet + r.dropped_degenerate + r.dropped_nonfinite + r.dropped_duplicate, s.n_tet);
+    assert_int_equal(r.n_vertex + r.merged_vertices + r.unused_vertices, s.n_vertex);
+    assert_true(r.dropped_degenerate == q.dropped_degenerate && r.dropped_nonfinite == q.dropped_nonfinite &&
+                r.dropped_duplicate == q.dropped_duplicate && r.merged_vertices == q.merged_vertices &&
+                r.reoriented == q.reoriented && r.n_component == q.n_component && r.n_tet == q.n_tet &&
+                r.n_vertex == q.n_vertex && r.n_boundary_face == q.n_boundary_face);
+    assert_memory_equal(a->vertex, b->vertex, a->n_vertex * 3 * sizeof *a->vertex);
+    assert_memory_equal(a->scalar, b->scalar, a->n_tet * sizeof *a->scalar);
+    assert_memory_equal(a->tet, b->tet, a->n_tet * 4 * sizeof *a->tet);
+    assert_memory_equal(a->neighbour, b->neighbour, a->n_tet * 4 * sizeof *a->tet);
+    assert_memory_equal(a->vertex_of_source, b->vertex_of_source, s.n_vertex * sizeof *a->vertex_of_source);
+    assert_memory_equal(a->tet_of_source, b->tet_of_source, s.n_tet * sizeof *a->tet_of_source);
+    for (size_t t = 0; t < s.n_tet; t++)
+        if (a->tet_of_source[t] >= 0)
+            assert_true(a->scalar[a->tet_of_source[t]] == scalar[t]);
+    free(scalar);
+    tc_mesh_destroy(&b);
+    end(&a, &s);
+}
+
 static void bad_cells_are_dropped_and_counted(void **state)
 {
     (void)state;
@@ -584,6 +641,7 @@ int main(void)
         cmocka_unit_test(two_tets_on_a_face_are_linked_across_it_only),
         cmocka_unit_test(a_kuhn_grid_is_linked_whole),
         cmocka_unit_test(the_result_does_not_depend_on_the_number_of_threads),
+        cmocka_unit_test(repairs_depend_on_the_number_of_threads),
         cmocka_unit_test(bad_cells_are_dropped_and_counted),
         cmocka_unit_test(an_equal_cell_keeps_the_value_of_the_first),
         cmocka_unit_test(duplicated_points_are_merged_when_their_values_agree),
