@@ -1,4 +1,4 @@
-/* audit.c: what the walk noted about itself (march.frag, AUDIT). */
+/* audit.c: what the walk noted about itself (march.glsl, AUDIT). */
 #include "gpu/audit.h"
 
 #include "core/memory.h"

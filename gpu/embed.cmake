@@ -1,6 +1,6 @@
 # embed.cmake: writes OUT, a C file with every shader of DIR as text.
 #   cmake -DDIR=… -DOUT=… -P embed.cmake
-file(GLOB shaders RELATIVE ${DIR} ${DIR}/*.glsl ${DIR}/*.vert ${DIR}/*.frag)
+file(GLOB shaders RELATIVE ${DIR} ${DIR}/*.glsl ${DIR}/*.vert ${DIR}/*.frag ${DIR}/*.comp)
 list(SORT shaders)
 set(text "/* The shaders of gpu/shaders as text; written by gpu/embed.cmake. */\n#include \"gpu/program.h\"\n\n")
 string(APPEND text "const tc_shader_file tc_shader_files[] = {\n")

@@ -38,6 +38,7 @@ tc_status tc_gl_load(tc_gl *gl, tc_get_proc get_proc, tc_error *err)
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &gl->max_texture_size);
     gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &gl->max_texture_3d);
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &gl->max_texture_buffer);
+    gl->GetIntegerv(GL_MAX_IMAGE_UNITS, &gl->max_image_units);
     gl->poison = tc_gl_setting("TETCAST_GL_POISON");
     return TC_OK;
 }

@@ -47,6 +47,7 @@
     X(PFNGLDEPTHMASKPROC, DepthMask)                                                                                   \
     X(PFNGLDEPTHRANGEPROC, DepthRange)                                                                                 \
     X(PFNGLDISABLEPROC, Disable)                                                                                       \
+    X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)                                                                       \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                                 \
     X(PFNGLDRAWBUFFERSPROC, DrawBuffers)                                                                               \
     X(PFNGLENABLEPROC, Enable)                                                                                         \
@@ -81,6 +82,7 @@
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                                 \
     X(PFNGLISENABLEDPROC, IsEnabled)                                                                                   \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                               \
+    X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)                                                                           \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                               \
     X(PFNGLPOLYGONMODEPROC, PolygonMode)                                                                               \
     X(PFNGLREADBUFFERPROC, ReadBuffer)                                                                                 \
@@ -98,6 +100,7 @@
     X(PFNGLUNIFORM3DPROC, Uniform3d)                                                                                   \
     X(PFNGLUNIFORM3FPROC, Uniform3f)                                                                                   \
     X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                                                                 \
+    X(PFNGLUNIFORM4IPROC, Uniform4i)                                                                                   \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                                 \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                                       \
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                               \
@@ -112,7 +115,7 @@ typedef struct tc_gl {
 #undef X
     char renderer[128], version[64];
     int major, minor;
-    GLint max_texture_size, max_texture_3d, max_texture_buffer;
+    GLint max_texture_size, max_texture_3d, max_texture_buffer, max_image_units;
     bool poison;          /* TETCAST_GL_POISON: what is not written yet holds NaN (tc_state_poison, upload.c) */
     tc_gl_watch *watch;   /* NULL but where GL's debug output is listened to (watch.h) */
 } tc_gl;

@@ -8,8 +8,11 @@
 #include "gpu/state.h"
 #include "gpu/upload.h"
 
+typedef struct tc_gl_driver tc_gl_driver;
+
 typedef struct tc_job {
     const tc_gl *gl;
+    const tc_gl_driver *driver;
     tc_program_cache *programs;
     const tc_state *state;
     const tc_gpu_mesh *mesh;
@@ -18,6 +21,7 @@ typedef struct tc_job {
     const tc_proposals *proposals; /* of this frame */
     GLuint hit_array, hit_buffer;  /* vertex array and buffer for them */
     GLuint entry_counter;          /* buffer of first_hit.frag's atomic counter */
+    GLuint march_counter;          /* … of march.comp's */
     GLuint screen_array;           /* an empty vertex array */
 
     tc_integrator integrator;                    /* TABLE, INTEGRAL or EXACT */
@@ -56,11 +60,22 @@ typedef struct tc_job {
 
 typedef struct tc_job_result {
     double ms_first_hit, ms_march;
-    int passes, z_updates, layers;
+    int passes, z_updates, layers; /* passes: dispatches of compute */
     int64_t rays, rays_lost;
-    int64_t twice; /* without peeling: entries beyond the first of their rays; if there are any, nothing was marched */
+    int64_t twice; /* without peeling: entries beyond the first of their rays; if there are any, no picture was made */
     int64_t *fragments; /* [passes], only when counting; caller frees */
 } tc_job_result;
+
+/* A way to walk the rays of a frame. */
+struct tc_gl_driver {
+    const char *name;
+    bool locks; /* finished rays, by z-updates between passes */
+    /* Compiles what the frame will use, so that the frame's time holds no compiling. Errors: TC_E_GL. */
+    tc_status (*compile)(const tc_job *job, tc_error *err);
+    /* First hit and march of one frame; leaves what rays gathered, were they counted or audited, in state set 0. Binds
+     * framebuffers. Errors: TC_E_GL, TC_E_MEMORY. Lost rays are counted, not an error here. */
+    tc_status (*frame)(tc_job_result *out, const tc_job *job, tc_error *err);
+};
 
 /* Does the fourth channel of a ray's colour hold optical depth, or else transmittance? */
 bool tc_job_holds_depth(const tc_job *job);

@@ -6,7 +6,6 @@
 #include "gpu/accumulate.h"
 #include "gpu/audit.h"
 #include "gpu/first_hit.h"
-#include "gpu/pingpong.h"
 #include "scene/samples.h"
 
 #include <stdlib.h>
@@ -42,7 +41,7 @@ tc_status tc_picture_compile(tc_picture *p, tc_error *err)
     tc_frame_build(&rays, p->rays, p->center, p->scale);
     p->job->frame = &rays;
     p->job->masked = false;
-    tc_status status = tc_pingpong_compile(p->job, err);
+    tc_status status = p->job->driver->compile(p->job, err);
     if (status == TC_OK)
         status = tc_accumulate_compile(p->job, samples, err);
     if (status == TC_OK && samples == TC_SAMPLES_ADAPTIVE) {
@@ -115,7 +114,7 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
     gl->Enable(GL_SCISSOR_TEST); /* nothing is done where no face is seen */
     gl->Scissor(rect[0], rect[1], rect[2], rect[3]);
     if (status == TC_OK)
-        status = tc_pingpong_frame(&one, job, err);
+        status = job->driver->frame(&one, job, err);
     one.ms_first_hit += ms_propose;
     p->result.twice = one.twice;
     if (status == TC_OK && one.twice == 0)

@@ -9,16 +9,13 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "gpu/first_hit.h"
+#include "gpu/march.h"
 #include "gpu/pass.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { AHEAD = 2, UNIT_NODES = 2, UNIT_WALK = 4, UNIT_COLOR, UNIT_AT, UNIT_STEPS, UNIT_TF, UNIT_AUDIT };
-/* Of the paper's arithmetic, four each: as textures, and as images, of which there are fewer (stepper_planes.glsl). */
-enum { UNIT_PLANES = 12, IMAGE_PLANES = 4 };
-enum { UNIT_PIECES = 10, IMAGE_PIECES = 3 };
+enum { AHEAD = 2 };
 static const GLuint64 WAIT_NS = 1000000000ull; /* for a fence, at a time */
 enum { WAITS = 3600 };                         /* a pass over a large picture on a slow machine takes minutes */
 
@@ -35,93 +32,19 @@ typedef struct loop {
     int64_t open;    /* rays not known to be finished */
 } loop;
 
-static void bind_pieces(const tc_job *job, GLuint program)
-{
-    const tc_gl *gl = job->gl;
-    int half = 1;
-    while (2 * half < job->n_piece)
-        half *= 2;
-    tc_pass_fetch(gl, program, "tf_pieces", job->software ? IMAGE_PIECES : UNIT_PIECES, GL_RGBA32F,
-                  job->transfer->pieces.texture, job->software);
-    tc_pass_int(gl, program, "tf_piece_count", job->n_piece);
-    tc_pass_int(gl, program, "tf_piece_half", half);
-}
-
-static void bind_drift(const tc_job *job, GLuint program)
-{
-    const tc_gl *gl = job->gl;
-    const double *o = job->octave, *m = job->tf_most;
-    tc_pass_fetch(gl, program, "tf_cells", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
-    tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
-    gl->Uniform3f(gl->GetUniformLocation(program, "tf_octave"), (float)o[0], (float)o[1], (float)o[2]);
-    gl->Uniform3f(gl->GetUniformLocation(program, "tf_most"), (float)m[0], (float)m[1], (float)m[2]);
-}
-
-static void bind_transfer(const tc_job *job, GLuint program)
-{
-    const tc_gl *gl = job->gl;
-    tc_pass_vec2(gl, program, "tf_map", job->map[0], job->map[1]);
-    if (job->integrator == TC_INTEGRATOR_TABLE) {
-        tc_pass_texture(gl, program, "tf_table", UNIT_TF, GL_TEXTURE_3D, job->transfer->table);
-        tc_pass_vec2(gl, program, "tf_texel[0]", job->texel[0][0], job->texel[0][1]);
-        tc_pass_vec2(gl, program, "tf_texel[1]", job->texel[1][0], job->texel[1][1]);
-        if (job->drift)
-            bind_drift(job, program);
-        else
-            tc_pass_vec2(gl, program, "tf_texel[2]", job->texel[2][0], job->texel[2][1]);
-    } else if (job->integrator == TC_INTEGRATOR_EXACT) {
-        bind_pieces(job, program);
-    } else {
-        tc_pass_fetch(gl, program, "tf_nodes", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
-        tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
-        tc_pass_float(gl, program, "tf_near", job->near);
-        tc_pass_vec4(gl, program, "tf_mean", job->mean);
-        if (job->hard > 0) {
-            bind_pieces(job, program);
-            const double hard[4] = {job->hard, job->hard / job->hard_depth, job->hard / job->hard_slope,
-                                    job->hard / job->hard_slope * job->hard_relative};
-            tc_pass_vec4(gl, program, "tf_hard", hard);
-        }
-        if (job->split > 0)
-            tc_pass_float(gl, program, "tf_split", job->split);
-    }
-}
-
-static void bind_planes(const tc_job *job, GLuint program)
-{
-    const tc_gl *gl = job->gl;
-    const tc_gpu_mesh *mesh = job->mesh;
-    bool software = job->software;
-    GLuint unit = software ? IMAGE_PLANES : UNIT_PLANES;
-    tc_pass_fetch(gl, program, "planes_vertices", unit, GL_RGBA32F, mesh->planes_vertices.texture, software);
-    tc_pass_fetch(gl, program, "planes_normals", unit + 1, GL_RGBA32F, mesh->planes_normals.texture, software);
-    tc_pass_fetch(gl, program, "planes_neighbours", unit + 2, GL_R32I, mesh->planes_neighbours.texture, software);
-    tc_pass_fetch(gl, program, "planes_scalars", unit + 3, GL_RGBA32F, mesh->planes_scalars.texture, software);
-    tc_pass_float(gl, program, "planes_longest", job->longest);
-}
-
 /* The programs of the loop, compiled if need be. */
 static tc_status get_programs(loop *l)
 {
     const tc_job *job = l->job;
-    char defines[512], alias[128];
-    tc_job_defines(defines, sizeof defines, job);
-    snprintf(alias, sizeof alias, "integrator.glsl=%s%s",
-             job->drift                               ? "integrate_drift.glsl"
-             : job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl"
-             : job->integrator == TC_INTEGRATOR_EXACT ? "integrate_exact.glsl"
-                                                      : "integrate_integral.glsl",
-             job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
-    const tc_program_source march = {"screen.vert", "march.frag", defines, alias};
     const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL},
                             lost = {"screen.vert", "lost.frag", "", NULL};
-    tc_status status = tc_program_get(&l->march, job->programs, &march, l->err);
+    tc_status status = tc_march_program(&l->march, job, "screen.vert", "march.frag", l->err);
     if (status == TC_OK)
         status = tc_program_get(&l->lock, job->programs, &lock, l->err);
     return status == TC_OK && job->planes ? tc_program_get(&l->lost, job->programs, &lost, l->err) : status;
 }
 
-tc_status tc_pingpong_compile(const tc_job *job, tc_error *err)
+static tc_status compile(const tc_job *job, tc_error *err)
 {
     loop l = {.job = job, .err = err};
     tc_status status = tc_first_hit_compile(job, err);
@@ -131,36 +54,10 @@ tc_status tc_pingpong_compile(const tc_job *job, tc_error *err)
 /* Binds what the march reads; again after each first hit, which uses the same units. */
 static tc_status prepare_march(loop *l)
 {
-    const tc_job *job = l->job;
-    const tc_gl *gl = job->gl;
     tc_status status = get_programs(l);
-    if (status != TC_OK)
-        return status;
-    gl->UseProgram(l->march);
-    tc_job_bind_mesh(job, l->march);
-    if (job->planes)
-        bind_planes(job, l->march);
-    bind_transfer(job, l->march);
-    tc_pass_int(gl, l->march, "steps_per_pass", job->steps_per_pass);
-    tc_pass_float(gl, l->march, "length_unit", job->length_unit);
-    tc_pass_float(gl, l->march, "transmittance_stop", job->transmittance_stop);
-    if (job->has_nan_color)
-        tc_pass_vec4(gl, l->march, "nan_color", job->nan_color);
-    return TC_OK;
-}
-
-static void clear_state(const tc_job *job)
-{
-    const tc_gl *gl = job->gl;
-    /* An empty ray: no colour, no optical depth, or full transmittance. */
-    const GLfloat empty[4] = {0, 0, 0, tc_job_holds_depth(job) ? 0.0f : 1.0f};
-    const GLuint none[4] = {0, 0, 0, 0};
-    gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->set[0].framebuffer);
-    gl->ClearBufferfv(GL_COLOR, 1, empty);
-    if (job->count)
-        gl->ClearBufferuiv(GL_COLOR, 3, none);
-    if (job->audit)
-        gl->ClearBufferuiv(GL_COLOR, 4, none);
+    if (status == TC_OK)
+        tc_march_bind(l->job, l->march);
+    return status;
 }
 
 /* Issues a z-update pass with its query. */
@@ -171,7 +68,7 @@ static void issue_lock(loop *l)
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthMask(GL_TRUE);
     gl->UseProgram(l->lock);
-    tc_pass_texture(gl, l->lock, "state_walk", UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[0].walk);
+    tc_pass_texture(gl, l->lock, "state_walk", TC_UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[0].walk);
     gl->BeginQuery(GL_SAMPLES_PASSED, l->lock_query);
     tc_pass_screen(gl);
     gl->EndQuery(GL_SAMPLES_PASSED);
@@ -216,17 +113,12 @@ static tc_status issue_pass(loop *l, int from)
     const tc_state_set *read = &job->state->set[from], *write = &job->state->set[1 - from];
     gl->BindFramebuffer(GL_FRAMEBUFFER, write->framebuffer);
     gl->UseProgram(l->march);
-    tc_pass_texture(gl, l->march, "state_walk", UNIT_WALK, GL_TEXTURE_2D, read->walk);
-    tc_pass_texture(gl, l->march, "state_color", UNIT_COLOR, GL_TEXTURE_2D, read->color);
-    tc_pass_texture(gl, l->march, "state_at", UNIT_AT, GL_TEXTURE_2D, read->at);
+    tc_march_bind_state(job, l->march, read);
     size_t pass = (size_t)l->result->passes++;
     if (!job->count) {
         tc_pass_screen(gl);
         return TC_OK;
     }
-    tc_pass_texture(gl, l->march, "state_steps", UNIT_STEPS, GL_TEXTURE_2D, read->steps);
-    if (job->audit)
-        tc_pass_texture(gl, l->march, "state_audit", UNIT_AUDIT, GL_TEXTURE_2D, read->audit);
     if (pass >= l->pass_capacity) {
         size_t capacity = l->pass_capacity ? 2 * l->pass_capacity : 256;
         GLuint *grown = tc_realloc(l->pass_query, capacity, sizeof *grown);
@@ -304,7 +196,7 @@ static int64_t count_given_up(loop *l)
     gl->BindFramebuffer(GL_FRAMEBUFFER, l->job->state->lock_framebuffer);
     gl->Disable(GL_DEPTH_TEST);
     gl->UseProgram(l->lost);
-    tc_pass_texture(gl, l->lost, "state_walk", UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[0].walk);
+    tc_pass_texture(gl, l->lost, "state_walk", TC_UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[0].walk);
     gl->BeginQuery(GL_SAMPLES_PASSED, l->lock_query);
     tc_pass_screen(gl);
     gl->EndQuery(GL_SAMPLES_PASSED);
@@ -326,13 +218,13 @@ static tc_status read_fragments(loop *l)
     return TC_OK;
 }
 
-tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err)
+static tc_status frame(tc_job_result *out, const tc_job *job, tc_error *err)
 {
     const tc_gl *gl = job->gl;
     memset(out, 0, sizeof *out);
     loop l = {.job = job, .result = out, .err = err};
     double start = tc_now_ms();
-    clear_state(job);
+    tc_march_clear(job);
     tc_status status = tc_first_hit(job, 0, err);
     if (status == TC_OK)
         status = prepare_march(&l);
@@ -372,3 +264,5 @@ tc_status tc_pingpong_frame(tc_job_result *out, const tc_job *job, tc_error *err
     free(l.pass_query);
     return status == TC_OK ? tc_gl_check(gl, "marching", err) : status;
 }
+
+const tc_gl_driver tc_driver_pingpong = {"pingpong", true, compile, frame};

@@ -154,7 +154,7 @@ tc_status tc_program_text(char **out, const char *file, const char *defines, con
 }
 
 typedef struct entry {
-    char *vertex, *fragment; /* final texts: the key */
+    char *vertex, *fragment; /* final texts: the key; vertex NULL: the other is a compute shader's */
     GLuint program;
 } entry;
 
@@ -216,12 +216,14 @@ static tc_status build(GLuint *program, const tc_gl *gl, const char *vertex_text
 {
     GLuint vertex = 0, fragment = 0;
     *program = 0;
-    tc_status status = compile(&vertex, gl, GL_VERTEX_SHADER, vertex_text, source->vertex, err);
+    tc_status status = vertex_text ? compile(&vertex, gl, GL_VERTEX_SHADER, vertex_text, source->vertex, err) : TC_OK;
     if (status == TC_OK)
-        status = compile(&fragment, gl, GL_FRAGMENT_SHADER, fragment_text, source->fragment, err);
+        status = compile(&fragment, gl, vertex_text ? GL_FRAGMENT_SHADER : GL_COMPUTE_SHADER, fragment_text,
+                         source->fragment, err);
     if (status == TC_OK) {
         *program = gl->CreateProgram();
-        gl->AttachShader(*program, vertex);
+        if (vertex)
+            gl->AttachShader(*program, vertex);
         gl->AttachShader(*program, fragment);
         gl->LinkProgram(*program);
         GLint ok = 0;
@@ -231,7 +233,8 @@ static tc_status build(GLuint *program, const tc_gl *gl, const char *vertex_text
             gl->GetProgramInfoLog(*program, sizeof log, NULL, log);
             gl->DeleteProgram(*program);
             *program = 0;
-            status = tc_fail(err, TC_E_GL, "linking %s and %s: %.600s", source->vertex, source->fragment, log);
+            status = tc_fail(err, TC_E_GL, "linking %s%s%s: %.600s", source->vertex ? source->vertex : "",
+                             source->vertex ? " and " : "", source->fragment, log);
         }
     }
     if (vertex)
@@ -243,17 +246,23 @@ static tc_status build(GLuint *program, const tc_gl *gl, const char *vertex_text
     return status;
 }
 
+static bool same(const char *a, const char *b)
+{
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
 tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_program_source *source, tc_error *err)
 {
     *program = 0;
     char *vertex = NULL, *fragment = NULL;
-    tc_status status = tc_program_text(&vertex, source->vertex, source->defines, source->alias, err);
+    tc_status status =
+        source->vertex ? tc_program_text(&vertex, source->vertex, source->defines, source->alias, err) : TC_OK;
     if (status == TC_OK)
         status = tc_program_text(&fragment, source->fragment, source->defines, source->alias, err);
     if (status != TC_OK)
         goto done;
     for (size_t i = 0; i < cache->n; i++)
-        if (strcmp(cache->entries[i].vertex, vertex) == 0 && strcmp(cache->entries[i].fragment, fragment) == 0) {
+        if (same(cache->entries[i].vertex, vertex) && same(cache->entries[i].fragment, fragment)) {
             *program = cache->entries[i].program;
             goto done;
         }

@@ -11,7 +11,8 @@ typedef struct tc_shader_file {
 /* Every shader file; {NULL, NULL} ends the list. */
 extern const tc_shader_file tc_shader_files[];
 
-/* What a program is made of. `defines` are lines such as "#define PEEL\n" (may be ""); `alias` is pairs of include
+/* What a program is made of: a vertex and a fragment shader, or, with vertex NULL, a compute shader in the place of the
+ * fragment shader. `defines` are lines such as "#define PEEL\n" (may be ""); `alias` is pairs of include
  * names, "integrator.glsl=integrate_table.glsl stepper.glsl=stepper_planes.glsl" (the first of each is read as the
  * second), or NULL. */
 typedef struct tc_program_source {

@@ -17,9 +17,11 @@
 enum {
     AUTO_STEPS_SOFTWARE = 512, /* where a pass costs next to nothing: most rays end in the first */
     AUTO_STEPS_HARDWARE = 64,
+    AUTO_STEPS_NO_PASSES = 4096, /* where rays are walked to their ends: more than most make, in less than seconds */
     SOFTWARE_ROUNDS = 60000, /* of loops in one invocation, within llvmpipe's limit */
     SPLIT_MOST = 256,        /* integrate_integral.glsl's */
     ROUNDS_BESIDE = 100,     /* a step's own, besides those of integrate_exact.glsl for each piece */
+    ROUNDS_PLAIN = 3,        /* a step's own where there are no others: it may leave every loop of march.glsl */
     AUTO_Z_SMALL = 4 /* for few steps a pass; Weiler et al. 2003, 5.2, found 14 best: 3 to 6 % more fragments here */
 };
 
@@ -30,7 +32,7 @@ struct tc_gpu_renderer {
     tc_context *context;
     tc_program_cache *programs;
     GLuint vertex_array[2]; /* empty; first hits */
-    GLuint hit_buffer, entry_counter;
+    GLuint hit_buffer, entry_counter, march_counter;
     int threads;
 
     uint64_t mesh_serial, scalar_serial; /* of what is uploaded; 0: nothing */
@@ -64,6 +66,7 @@ tc_status tc_gpu_renderer_create(tc_gpu_renderer **out, const char *name, tc_get
         r->context->gl.GenVertexArrays(2, r->vertex_array);
         r->context->gl.GenBuffers(1, &r->hit_buffer);
         r->context->gl.GenBuffers(1, &r->entry_counter);
+        r->context->gl.GenBuffers(1, &r->march_counter);
     }
     if (status != TC_OK) {
         tc_gpu_renderer_destroy(&r);
@@ -87,6 +90,7 @@ void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer)
         gl->DeleteVertexArrays(2, r->vertex_array);
         gl->DeleteBuffers(1, &r->hit_buffer);
         gl->DeleteBuffers(1, &r->entry_counter);
+        gl->DeleteBuffers(1, &r->march_counter);
     }
     tc_context_destroy(&r->context);
     tc_proposals_finish(&r->proposals);
@@ -154,12 +158,16 @@ static tc_status ensure_state(tc_gpu_renderer *r, const tc_render_options *optio
 static void choose_passes(tc_job *job, const tc_render_options *options)
 {
     job->steps_per_pass = options->steps_per_pass > 0 ? options->steps_per_pass
+                          : !job->driver->locks       ? AUTO_STEPS_NO_PASSES
                           : job->software             ? AUTO_STEPS_SOFTWARE
                                                       : AUTO_STEPS_HARDWARE;
     bool pieces = job->integrator == TC_INTEGRATOR_EXACT || job->hard > 0;
-    if (job->software && (pieces || job->split > 0)) {
+    if (job->software) {
         /* A segment may cross every piece, or be cut into the most parts; loops are cut after 65535 rounds in all. */
-        int most = (int)(SOFTWARE_ROUNDS / ((pieces ? (double)job->n_piece : SPLIT_MOST) + ROUNDS_BESIDE));
+        double rounds = pieces           ? (double)job->n_piece + ROUNDS_BESIDE
+                        : job->split > 0 ? SPLIT_MOST + ROUNDS_BESIDE
+                                         : ROUNDS_PLAIN;
+        int most = (int)(SOFTWARE_ROUNDS / rounds);
         job->steps_per_pass = job->steps_per_pass < most ? job->steps_per_pass : most > 1 ? most : 1;
     }
     int every = options->z_update_every;
@@ -196,7 +204,7 @@ static void fill_stats(tc_render_stats *stats, const tc_gpu_renderer *r, const t
     snprintf(stats->context, sizeof stats->context, "%s", r->context->kind->name);
     snprintf(stats->gl_renderer, sizeof stats->gl_renderer, "%s", r->context->gl.renderer);
     snprintf(stats->gl_version, sizeof stats->gl_version, "%d.%d", r->context->gl.major, r->context->gl.minor);
-    snprintf(stats->driver, sizeof stats->driver, "pingpong");
+    snprintf(stats->driver, sizeof stats->driver, "%s", job->driver->name);
     snprintf(stats->stepper, sizeof stats->stepper, "%s", job->planes ? "planes" : "signs");
     snprintf(stats->integrator, sizeof stats->integrator, "%s",
              job->integrator == TC_INTEGRATOR_TABLE   ? "table"
@@ -213,9 +221,9 @@ static void fill_stats(tc_render_stats *stats, const tc_gpu_renderer *r, const t
     stats->gpu_bytes_table = (double)r->transfer.textures.bytes;
     stats->gpu_bytes_state = (double)r->state.bytes;
     stats->steps_per_pass = job->steps_per_pass;
-    stats->z_update_every = job->z_update_every;
+    stats->z_update_every = job->driver->locks ? job->z_update_every : -1;
     stats->passes = result->passes;
-    stats->z_updates = result->z_updates;
+    stats->z_updates = job->driver->locks ? result->z_updates : -1;
     stats->layers = result->layers;
     stats->rays = result->rays;
     stats->rays_lost = result->rays_lost;
@@ -275,6 +283,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     if (status == TC_OK && gl->poison)
         tc_state_poison(&r->state, gl);
     tc_job job = {.gl = gl, .programs = r->programs, .state = &r->state, .mesh = &r->mesh};
+    job.driver = frame->driver;
     if (status == TC_OK) {
         job.length_unit = fmin(1 / (r->scale * frame->unit_distance), 1e30); /* a float, and its products */
         job.cell_data = r->mesh.cell_scalar.texture != 0;
@@ -317,6 +326,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.hit_array = r->vertex_array[1];
     job.hit_buffer = r->hit_buffer;
     job.entry_counter = r->entry_counter;
+    job.march_counter = r->march_counter;
 
     tc_picture picture = {.job = &job,
                           .rays = frame->rays,

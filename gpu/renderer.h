@@ -11,6 +11,7 @@ typedef struct tc_gpu_renderer tc_gpu_renderer;
 /* One frame's inputs; all borrowed. options as the caller gave them, checked; where a zero
  * means "choose" the renderer chooses, but for unit_distance, which is here as a length above 0. */
 typedef struct tc_gpu_frame {
+    const tc_gl_driver *driver;
     const tc_mesh *mesh;
     const tc_transfer *transfer;
     const tc_rays *rays;

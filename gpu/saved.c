@@ -28,6 +28,12 @@ _Static_assert(sizeof stores / sizeof *stores == TC_SAVED_STORES, "saved.h count
 
 enum { MAX_ERRORS = 64 }; /* a lost context gives errors without end */
 
+/* At least 8 are offered. */
+static GLuint image_units(const tc_gl *gl)
+{
+    return gl->max_image_units < TC_SAVED_IMAGES ? (GLuint)gl->max_image_units : TC_SAVED_IMAGES;
+}
+
 void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
 {
     for (int i = 0; i < MAX_ERRORS && gl->GetError() != GL_NO_ERROR; i++)
@@ -67,7 +73,7 @@ void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
         s->enabled[i] = gl->IsEnabled(switches[i]);
         gl->Disable(switches[i]);
     }
-    for (GLuint i = 0; i < TC_SAVED_IMAGES; i++) {
+    for (GLuint i = 0; i < image_units(gl); i++) {
         gl->GetIntegeri_v(GL_IMAGE_BINDING_NAME, i, &s->image[i]);
         gl->GetIntegeri_v(GL_IMAGE_BINDING_LEVEL, i, &s->image_level[i]);
         gl->GetBooleani_v(GL_IMAGE_BINDING_LAYERED, i, &s->image_layered[i]);
@@ -135,7 +141,7 @@ void tc_gl_restore(const tc_gl_saved *s, const tc_gl *gl)
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);
     gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);
     gl->DepthRange((GLdouble)s->depth_range[0], (GLdouble)s->depth_range[1]);
-    for (GLuint i = 0; i < TC_SAVED_IMAGES; i++)
+    for (GLuint i = 0; i < image_units(gl); i++)
         gl->BindImageTexture(i, (GLuint)s->image[i], s->image_level[i], s->image_layered[i], s->image_layer[i],
                              (GLenum)s->image_access[i], (GLenum)s->image_format[i]);
     for (int i = 0; i < TC_SAVED_SWITCHES; i++)

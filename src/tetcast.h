@@ -323,13 +323,13 @@ typedef struct tc_renderer tc_renderer;
 /* Where the pictures are made. */
 typedef struct tc_renderer_options {
     const char *gl;     /* "auto", "osmesa", "egl"; NULL: auto. Ignored by the driver "reference" */
-    const char *driver; /* "auto", "pingpong", "reference"; NULL: auto */
+    const char *driver; /* "auto", "pingpong", "compute", "reference"; NULL: auto */
     void *(*get_proc_address)(const char *name); /* not NULL: a context the host owns and has made current */
     int threads;        /* 0: all cores */
 } tc_renderer_options;
 
-/* options NULL: all defaults. Driver auto takes pingpong; where no GL context can be made it says so to log and takes
- * reference, but only if neither a gl nor a host's context was asked for. gl auto takes EGL on a GPU, else OSMesa, else
+/* options NULL: all defaults. Driver auto takes pingpong in a software GL and compute on a GPU; where no GL context can be
+ * made it says so to log and takes reference, but only if neither a gl nor a host's context was asked for. gl auto takes EGL on a GPU, else OSMesa, else
  * EGL in software. A context of the renderer's own is made current on the calling thread, by this call and by each
  * that renders, and stays so; whatever was current before is not put back. A renderer is used by one thread at a time;
  * several renderers may live beside each other. With get_proc_address the host's context must be current in every call
@@ -353,7 +353,7 @@ typedef struct tc_render_options {
     double integral_split;        /* of INTEGRAL: segments are cut to at most this optical depth; 0: auto */
     double opacity_stop;          /* a ray ends at this alpha; 1: never; 0: auto, 0.999, with EXACT 0.9999 */
     int steps_per_pass;           /* K at most; 0: auto; software renderers take fewer where a step may be long */
-    int z_update_every;           /* passes between z-locks, 1 … 65536, rounded up to even; 0: auto; -1: never lock */
+    int z_update_every;           /* of pingpong: passes between z-locks, 1 … 65536, rounded up to even; 0: auto; -1: never lock */
     bool count;                   /* count steps, fragments per pass (costs time) */
     tc_stepper stepper;
     bool audit;                   /* the walk checks itself (costs time): tc_render_stats.audit_broken, tc_render_audit;

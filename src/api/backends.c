@@ -29,11 +29,8 @@ tc_status tc_backends(tc_backend_info *out, size_t capacity, size_t *n, tc_error
         if (*n >= capacity)
             return tc_fail(err, TC_E_ARG, "%zu back ends do not fit; give more room", *n + 1);
         tc_backend_info *info = &out[(*n)++];
-        *info = (tc_backend_info){.kind = "driver", .name = driver->name, .works = !driver->needs_gl || any_gl};
-        snprintf(info->why, sizeof info->why, "%s",
-                 !driver->needs_gl ? "double precision on the CPU"
-                 : any_gl          ? "OpenGL 4.3, multi-pass"
-                                   : "needs a GL context");
+        *info = (tc_backend_info){.kind = "driver", .name = driver->name, .works = !driver->gl || any_gl};
+        snprintf(info->why, sizeof info->why, "%s", info->works ? driver->what : "needs a GL context");
     }
     return TC_OK;
 }

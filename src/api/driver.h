@@ -10,15 +10,15 @@
 struct tc_renderer {
     const struct tc_driver *driver;
     int threads;
-    tc_gpu_renderer *gpu; /* pingpong */
+    tc_gpu_renderer *gpu; /* pingpong, compute */
     bool host;            /* gpu lives in a context that the host owns */
     tc_reference *reference;
     uint64_t reference_serial; /* of the mesh that reference stands for */
 };
 
 typedef struct tc_driver {
-    const char *name;
-    bool needs_gl;
+    const char *name, *what; /* what: in a few words */
+    const tc_gl_driver *gl;  /* NULL: it needs no GL */
     /* Fails where the driver cannot run here; err says why. */
     tc_status (*create)(tc_renderer *renderer, const tc_renderer_options *options, const tc_log *log, tc_error *err);
     /* One frame into image (made by the caller); frame->options is checked. */
@@ -27,7 +27,8 @@ typedef struct tc_driver {
     void (*finish)(tc_renderer *renderer);
 } tc_driver;
 
-/* The drivers of this build, best first; `auto` takes the first that can be created. NULL name ends the table. */
+/* The drivers of this build, best first; `auto` takes the first that can be created, but compute in place of pingpong
+ * where the GL is not software: there few units may run fragment shaders. NULL name ends the table. */
 extern const tc_driver tc_drivers[];
 
 /* Checks what every driver relies on and fills unit and rays. Errors: TC_E_ARG. */

@@ -3,6 +3,8 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "gpu/compute.h"
+#include "gpu/pingpong.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -123,16 +125,16 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
     return tc_rays_from_camera(rays, camera, options->width, options->height, err);
 }
 
-/* ------------------------------------------------------------------------------------------------- pingpong */
+/* ----------------------------------------------------------------------------------------- pingpong, compute */
 
-static tc_status pingpong_create(tc_renderer *r, const tc_renderer_options *options, const tc_log *log, tc_error *err)
+static tc_status gl_create(tc_renderer *r, const tc_renderer_options *options, const tc_log *log, tc_error *err)
 {
     r->host = options->get_proc_address != NULL;
     return tc_gpu_renderer_create(&r->gpu, options->gl, options->get_proc_address, options->threads, log, err);
 }
 
-static tc_status pingpong_render(tc_image *image, tc_render_stats *stats, tc_renderer *r, const tc_gpu_frame *frame,
-                                 tc_error *err)
+static tc_status gl_render(tc_image *image, tc_render_stats *stats, tc_renderer *r, const tc_gpu_frame *frame,
+                           tc_error *err)
 {
     const tc_gl *gl = &tc_gpu_renderer_context(r->gpu)->gl;
     tc_gl_saved saved;
@@ -148,7 +150,7 @@ static tc_status pingpong_render(tc_image *image, tc_render_stats *stats, tc_ren
     return status;
 }
 
-static void pingpong_finish(tc_renderer *r)
+static void gl_finish(tc_renderer *r)
 {
     tc_gpu_renderer_destroy(&r->gpu);
 }
@@ -197,12 +199,27 @@ static void reference_finish(tc_renderer *r)
 }
 
 const tc_driver tc_drivers[] = {
-    {"pingpong", true, pingpong_create, pingpong_render, pingpong_finish},
-    {"reference", false, reference_create, reference_render, reference_finish},
+    {"pingpong", "OpenGL 4.3, multi-pass", &tc_driver_pingpong, gl_create, gl_render, gl_finish},
+    {"compute", "OpenGL 4.3, compute shader", &tc_driver_compute, gl_create, gl_render, gl_finish},
+    {"reference", "double precision on the CPU", NULL, reference_create, reference_render, reference_finish},
     {0},
 };
 
 /* --------------------------------------------------------------------------------------------------- renderer */
+
+/* Of the drivers with GL, which share all but the march: the one for the context at hand. `first` is the one that made
+ * it. */
+static const tc_driver *choose_gl(const tc_driver *first, const tc_renderer *r, const tc_log *log)
+{
+    const tc_context *context = tc_gpu_renderer_context(r->gpu);
+    const tc_gl_driver *best = context->software ? &tc_driver_pingpong : &tc_driver_compute;
+    for (const tc_driver *driver = tc_drivers; driver->name; driver++)
+        if (driver->gl == best)
+            first = driver;
+    tc_say(log, TC_DEBUG, "driver %s: %s is %s renderer", first->name, context->gl.renderer,
+           context->software ? "a software" : "no software");
+    return first;
+}
 
 tc_status tc_renderer_create(tc_renderer **out, const tc_renderer_options *options, const tc_log *log, tc_error *err)
 {
@@ -229,13 +246,14 @@ tc_status tc_renderer_create(tc_renderer **out, const tc_renderer_options *optio
         tc_say(log, TC_WARNING, "driver %s cannot be used: %s", driver->name, why.text);
     }
     if (status == TC_OK) {
-        r->driver = driver;
+        r->driver = any && driver->gl ? choose_gl(driver, r, log) : driver;
         *out = r;
         return TC_OK;
     }
     free(r);
     if (!why.text[0])
-        return tc_fail(err, TC_E_ARG, "unknown driver '%s'; there are auto, pingpong and reference", options->driver);
+        return tc_fail(err, TC_E_ARG, "unknown driver '%s'; there are auto, pingpong, compute and reference",
+                       options->driver);
     return tc_fail(err, status, "%s", why.text);
 }
 
@@ -271,16 +289,18 @@ tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *rendere
     clear_stats(stats);
     *out = NULL;
     tc_rays rays;
-    tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = options, .log = log};
+    tc_gpu_frame frame = {
+        .driver = renderer->driver->gl, .mesh = mesh, .transfer = tf, .rays = &rays, .options = options, .log = log};
     tc_status status = tc_render_resolve(&frame.unit_distance, &rays, mesh, tf, camera, options, err);
     if (status == TC_OK && options->stepper != TC_STEPPER_SIGNS && !renderer->gpu)
         status = tc_fail(err, TC_E_ARG,
                          "the driver '%s' does not walk from cell to cell: the stepper 'planes' needs the "
-                         "driver 'pingpong'",
+                         "driver 'pingpong' or 'compute'",
                          renderer->driver->name);
     if (status == TC_OK && options->audit && !renderer->gpu)
         status = tc_fail(err, TC_E_ARG,
-                         "the driver '%s' does not walk from cell to cell: an audit needs the driver 'pingpong'",
+                         "the driver '%s' does not walk from cell to cell: an audit needs the driver 'pingpong' "
+                         "or 'compute'",
                          renderer->driver->name);
     if (status == TC_OK)
         status = tc_image_create(out, options->width, options->height, err);
@@ -317,10 +337,11 @@ tc_status tc_render_gl(unsigned framebuffer, tc_render_stats *stats, tc_renderer
         stats = &unused;
     clear_stats(stats);
     if (!renderer->gpu)
-        return tc_fail(err, TC_E_ARG, "the driver '%s' does not draw into a GL context; use pingpong",
+        return tc_fail(err, TC_E_ARG, "the driver '%s' does not draw into a GL context; use pingpong or compute",
                        renderer->driver->name);
     tc_rays rays;
-    tc_gpu_frame frame = {.mesh = mesh, .transfer = tf, .rays = &rays, .options = options, .log = log};
+    tc_gpu_frame frame = {
+        .driver = renderer->driver->gl, .mesh = mesh, .transfer = tf, .rays = &rays, .options = options, .log = log};
     tc_status status = tc_render_resolve(&frame.unit_distance, &rays, mesh, tf, camera, options, err);
     if (status != TC_OK)
         return status;

@@ -41,7 +41,7 @@ static const tc_choice tc_gl_choice[] = {
     {NULL, 0, false},
 };
 static const tc_choice tc_driver_choice[] = {
-    {"auto", 0, false}, {"pingpong", 1, false}, {"reference", 2, false}, {"compute", 3, true}, {NULL, 0, false},
+    {"auto", 0, false}, {"pingpong", 1, false}, {"compute", 2, false}, {"reference", 3, false}, {NULL, 0, false},
 };
 static const tc_choice tc_stepper_choice[] = {
     {"signs", TC_STEPPER_SIGNS, false},
@@ -196,7 +196,7 @@ static const tc_option tc_render_option[] = {
     {"--samples", 0, "1|4|16|adaptive", "rays a pixel; adaptive: 4, and 16 where these differ", TC_OPTION_CHOICE, AT(samples), .choice = tc_samples_choice},
     {"--state-format", 0, "auto|16f|32f", "bits a channel of what rays carry from pass to pass", TC_OPTION_CHOICE, AT(state_format), .choice = tc_state_choice},
     {"--gl", 0, "auto|osmesa|egl", "how to get an OpenGL context", TC_OPTION_CHOICE, AT(gl_choice), .choice = tc_gl_choice},
-    {"--driver", 0, "auto|pingpong|reference", "multi-pass fragment shader, or double precision on the CPU", TC_OPTION_CHOICE, AT(driver_choice), .choice = tc_driver_choice},
+    {"--driver", 0, "auto|pingpong|compute|reference", "multi-pass fragment shader, compute shader, or double precision on the CPU", TC_OPTION_CHOICE, AT(driver_choice), .choice = tc_driver_choice},
     {"--stepper", 0, "signs|planes", "how a ray leaves a cell: exact signs, or, to compare, the paper's plane equations, which lose rays", TC_OPTION_CHOICE, AT(stepper), .choice = tc_stepper_choice},
     {"--steps-per-pass", 0, "K|auto", "cells a ray crosses in one pass", TC_OPTION_INT, AT(steps_per_pass), .low = 1, .high = 65536, .choice = tc_auto_choice},
     {"--z-update-every", 0, "N|auto|never", "passes between locks of finished rays by the depth test", TC_OPTION_INT, AT(z_update_every), .low = 1, .high = 65536, .choice = tc_lock_choice},

@@ -67,13 +67,13 @@ json planes.json eq march.stepper planes ge march.rays_lost 1 ge verify.rays_los
 run 0 render $sink --stats audit.json --audit
 says "exactly two faces held the ray"
 json audit.json eq march.cells_broken 0
-sed 's/walk_holding_faces(w) == 2u/walk_holding_faces(w) == 7u/' "$TC_SOURCE/gpu/shaders/march.frag" >march.frag
+sed 's/walk_holding_faces(w) == 2u/walk_holding_faces(w) == 7u/' "$TC_SOURCE/gpu/shaders/march.glsl" >march.glsl
 rm -f a.png
 TETCAST_SHADERS=.
 export TETCAST_SHADERS
 run 1 render $sink --stats broken.json --audit
 unset TETCAST_SHADERS
-rm march.frag
+rm march.glsl
 there a.png
 says "visited cells other than two faces held the ray"
 says_not "exactly two faces"

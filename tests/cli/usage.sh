@@ -76,7 +76,6 @@ for case in \
     "a is the input and would be written over: give --error-image another name|render a --error-image a" \
     "e.bmp: the extension tells the format|render a --error-image e.bmp" \
     "not in this version|render a --model mip" \
-    "not in this version|render a --driver compute" \
     "--iso is not in this version|render a --iso 1" \
     "--shade is not in this version|render a --shade phong" \
     "--clip is not in this version|render a --clip x" \

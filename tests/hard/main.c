@@ -1,6 +1,8 @@
 /* main.c: hard: every mesh, view and function of the catalogue, judged by the invariants (docs/stability.md).
  *
  *   hard --context osmesa|egl|reference   where the pictures are made
+ *        [--driver pingpong|compute]      by which driver with GL; compute is compared with pingpong on the same
+ * context
  *        [--long]                         every view and function with every mesh, larger pictures
  *        [--filter TEXT]                  only cases whose name ("mesh; view; function; relation") holds TEXT
  *        [--list]                         print the cases' names and end
@@ -22,7 +24,8 @@
 #include <string.h>
 
 typedef struct settings {
-    const char *context, *filter, *json, *table, *export;
+    const char *context, *driver, *filter, *json, *table, *export;
+    char name[64]; /* of context and driver, which becomes the context */
     bool long_run, list;
     bool small; /* smaller pictures than usual were asked for: fewer rays */
     int size;
@@ -45,8 +48,9 @@ static bool parse(settings *s, int argc, char **argv)
         const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL;
         const struct {
             const char *name, **text;
-        } texts[] = {{"--context", &s->context}, {"--filter", &s->filter},     {"--json", &s->json},
-                     {"--table", &s->table},     {"--write", &s->bench.write}, {"--export", &s->export}};
+        } texts[] = {{"--context", &s->context}, {"--driver", &s->driver}, {"--filter", &s->filter},
+                     {"--json", &s->json},       {"--table", &s->table},   {"--write", &s->bench.write},
+                     {"--export", &s->export}};
         const struct {
             const char *name;
             size_t *number;
@@ -86,6 +90,10 @@ static bool parse(settings *s, int argc, char **argv)
         s->bench.judged = s->long_run ? 256 : 64;
     if (!s->bench.verified)
         s->bench.verified = s->long_run ? 1024 : 256;
+    if (s->driver && s->context && strcmp(s->driver, "pingpong") != 0) { /* as tests/common/backend.h names it */
+        snprintf(s->name, sizeof s->name, "%s-%s", s->context, s->driver);
+        s->context = s->name;
+    }
     return s->context || s->list;
 }
 
@@ -254,7 +262,8 @@ int main(int argc, char **argv)
     session run = {.s = &s, .program = argv[0]};
     if (!parse(&s, argc, argv) || (s.context && !backend_known(s.context))) {
         fprintf(stderr,
-                "usage: %s --context osmesa|egl|reference [--long] [--filter TEXT] [--list] [--size N] [--judged N] "
+                "usage: %s --context osmesa|egl|reference [--driver pingpong|compute] [--long] [--filter TEXT] "
+                "[--list] [--size N] [--judged N] "
                 "[--verified N] [--blind CELL] [--json FILE] [--table FILE.md] [--write DIR] [--export DIR]\n",
                 argv[0]);
         return 2;
@@ -267,7 +276,11 @@ int main(int argc, char **argv)
     tc_status status = hard_table_create(&run.table, s.context ? s.context : "", &run.err);
     if (!s.list && s.bench.gpu) {
         s.bench.exact = tc_gpu_renderer_context(s.bench.renderer->gpu)->software;
-        if (strcmp(s.context, "egl") == 0 && backend_open(&s.bench.other, "osmesa") != 0)
+        const tc_renderer_options made = backend_options(s.context);
+        const char *other = strcmp(made.driver, "compute") == 0 ? made.gl
+                            : strcmp(made.gl, "egl") == 0       ? "osmesa"
+                                                                : NULL;
+        if (other && backend_open(&s.bench.other, other) != 0)
             s.bench.other = NULL;
     }
     for (size_t i = 0; i < hard_catalogue_meshes(s.long_run) && status == TC_OK; i++)

@@ -20,7 +20,7 @@ bool suite_begin(int argc, char **argv)
 {
     suite.name = argc == 2 ? argv[1] : "";
     if (!backend_known(suite.name)) {
-        fprintf(stderr, "usage: %s osmesa|egl|reference\n", argv[0]);
+        fprintf(stderr, "usage: %s osmesa|egl|osmesa-compute|egl-compute|reference\n", argv[0]);
         exit(2);
     }
     suite.gpu = strcmp(suite.name, "reference") != 0;
@@ -40,9 +40,19 @@ const char *suite_backend(void)
     return suite.name;
 }
 
+const char *suite_context(void)
+{
+    return suite.gpu ? backend_options(suite.name).gl : suite.name;
+}
+
 bool suite_is_gpu(void)
 {
     return suite.gpu;
+}
+
+bool suite_locks(void)
+{
+    return strcmp(backend_options(suite.name).driver, "pingpong") == 0;
 }
 
 void suite_say(const char *format, ...)
@@ -191,8 +201,7 @@ static void expect_sane(const tc_image *image, const tc_transfer *tf, const tc_r
 
 tc_renderer *suite_renderer(const char *poison)
 {
-    const tc_renderer_options options = {.gl = suite.gpu ? suite.name : NULL,
-                                         .driver = suite.gpu ? "pingpong" : "reference"};
+    const tc_renderer_options options = backend_options(suite.name);
     tc_renderer *renderer;
     tc_error err = {0};
     if (poison)

@@ -1,7 +1,8 @@
 /* suite.h: the one suite that every driver passes on every context (docs/architecture.md, "Drivers"): what its programs
  * share.
  *
- * Each program takes a back end as its argument: a context ("osmesa", "egl") for the driver pingpong, or "reference".
+ * Each program takes a back end as its argument: a context ("osmesa", "egl") for the driver pingpong, the same for the
+ * driver compute ("osmesa-compute", "egl-compute"), or "reference".
  * Where a context is missing it says why and ends with SUITE_SKIPPED. Every picture that is rendered here must have
  * lost no ray and hold neither NaN, Inf, negative values, alpha above 1, nor colour more than half an 8-bit step above
  * alpha times the function's largest. */
@@ -27,9 +28,12 @@ enum { SUITE_SKIPPED = 77 }; /* ctest's SKIP_RETURN_CODE */
  * where a context that is installed cannot be used. */
 bool suite_begin(int argc, char **argv);
 void suite_end(void);
-const char *suite_backend(void); /* "osmesa", "egl" or "reference" */
+const char *suite_backend(void); /* that argument */
+const char *suite_context(void); /* "osmesa", "egl" or "reference" */
 /* The driver renders with GL: it has passes, fragments and bytes on the GPU. */
 bool suite_is_gpu(void);
+/* The driver locks finished rays by z-updates between passes. */
+bool suite_locks(void);
 /* Prints a measured value, with the back end's name before it. */
 void suite_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

@@ -131,7 +131,7 @@ static void a_failed_picture_gives_the_last_ones_audit(void **state)
     suite_audit(first);
     tc_image_destroy(&image);
     assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/march.frag", folder);
+    snprintf(path, sizeof path, "%s/march.glsl", folder);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     assert_true(fputs("#error broken on purpose\n", file) >= 0 && fclose(file) == 0);

@@ -72,7 +72,7 @@ static void missing_files_are_not_named(void **state)
     for (int i = 0; i < 2; i++) {
         assert_int_equal(tc_program_text(&text, "march.frag", "", aliases[i], &err), TC_E_GL);
         assert_null(text);
-        snprintf(expected, sizeof expected, "march.frag:%d", line_of("march.frag", "#include \"integrator.glsl\""));
+        snprintf(expected, sizeof expected, "march.glsl:%d", line_of("march.glsl", "#include \"integrator.glsl\""));
         if (!strstr(err.text, expected))
             fail_msg("no %s in: %s", expected, err.text);
     }

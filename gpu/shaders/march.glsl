@@ -1,0 +1,147 @@
+// march.glsl: up to K cell steps of a ray, whatever carries its state from pass to pass: march.frag, march.comp.
+// Weiler et al. 2003, 3.4.
+
+#include "stepper.glsl"
+#include "integrator.glsl"
+
+uniform int steps_per_pass;
+uniform float length_unit;         // half diagonals → unit distances
+uniform float transmittance_stop;  // a ray ends at or below
+#ifdef NAN_COLOR
+uniform vec4 nan_color; // of cells with a value that is not finite: r, g, b, attenuation per unit distance
+#endif
+#ifdef AUDIT
+struct Audit {
+    float length, real;
+    uint hash, broken;
+};
+
+uint audit_hash(uint cell) // tc_audit_hash
+{
+    uint h = cell + 1u;
+    h = (h ^ (h >> 16)) * 0x85ebca6bu;
+    h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+    return h ^ (h >> 16);
+}
+
+void audit_add(inout Audit audit, Segment segment)
+{
+    audit.length += segment.z1 - segment.z0;
+    audit.real += segment.real ? segment.z1 - segment.z0 : 0.0;
+    audit.hash += audit_hash(uint(segment.cell / MESH_RECORD));
+}
+
+Audit audit;
+
+void audit_begin(uvec4 before) // length, length in real cells (bits), hash of the cells, broken cells
+{
+    audit = Audit(uintBitsToFloat(before.x), uintBitsToFloat(before.y), before.z, before.w);
+}
+
+uvec4 audit_end()
+{
+    return uvec4(floatBitsToUint(audit.length), floatBitsToUint(audit.real), audit.hash, audit.broken);
+}
+#endif
+
+// One step, and its share of the picture, which integral_round may still have to add.
+void march_step(inout Walk w, Ray ray, inout Integral integral)
+{
+#ifdef AUDIT
+    audit.broken += walk_holding_faces(w) == 2u ? 0u : 1u;
+#endif
+    Segment segment = walk_step(w, ray);
+#ifdef CLIP_NEAR
+    if (segment.z0 < ray.near) {
+        if (segment.z1 > ray.near) {
+            segment.s0 = mix(segment.s0, segment.s1, (ray.near - segment.z0) / (segment.z1 - segment.z0));
+            segment.z0 = ray.near;
+            integral_enter(integral, segment.s0);
+        } else {
+            segment.z0 = segment.z1; // nothing of it is seen
+        }
+    }
+#endif
+#ifdef CLIP_FAR
+    if (segment.z1 > ray.far) {
+        float f = clamp((ray.far - segment.z0) / (segment.z1 - segment.z0), 0.0, 1.0);
+        segment.s1 = mix(segment.s0, segment.s1, f);
+        segment.z1 = max(segment.z0, ray.far);
+        w.cell = -2; // the rest is not seen
+    }
+#endif
+#ifdef AUDIT
+    audit_add(audit, segment);
+#endif
+#ifdef CELL_DATA
+    segment.s0 = segment.s1 = segment.real ? mesh_cell_value(segment.cell) : 0.0;
+    integral_enter(integral, segment.s0);
+#endif
+#ifdef NONFINITE
+    // A cell with a value that is not finite has no colour of the function's: its entry and exit face together hold all
+    // its vertices.
+    if (isnan(segment.s0) || isnan(segment.s1)) {
+#ifdef NAN_COLOR
+        integral_add_constant(integral, nan_color, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
+#endif
+        segment.real = false;
+        segment.s1 = isnan(segment.s1) ? 0.0 : segment.s1;
+        integral_enter(integral, segment.s1);
+    }
+#endif
+    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
+}
+
+// Ends the ray where it is opaque.
+void march_stop(inout Walk w, Integral integral, inout vec2 stop)
+{
+    // Carried from round to round: what each round makes anew llvmpipe keeps, behind the loop, as the last lane left it.
+    bool stops = w.cell >= 0 && integral_transmittance(integral) <= transmittance_stop;
+    stop = stops ? vec2(w.s, 1.0) : stop;
+    w.cell = stops ? -2 : w.cell;
+}
+
+// Up to steps_per_pass steps of the ray through `pixel`, which is not finished. walk: its cell, negative once it is
+// finished, and a, b, c; color: the integrator's; at: depth, scalar. Gives the number of steps.
+int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
+{
+    Ray ray = ray_of_pixel(pixel);
+    Walk w;
+    int facing;
+    walk_face(w, ray, walk.x, walk.yzw, facing);
+    w.z = at.x;
+    w.s = at.y;
+    walk_look_ahead(w);
+    Integral integral = integral_begin(color, w.s);
+    int k = 0;
+    bool open = false;     // the last step's segment is not all added yet
+    vec2 stop = vec2(0.0); // the scalar where the opacity stop ended the ray, and whether it did
+#define GOES_ON (open || w.cell >= 0 && k < steps_per_pass)
+    // Loops in one another: what is rare waits in the outer ones until all lanes of a group need it or are done.
+#ifdef TF_HARD
+    do {
+#endif
+    do {
+        walk_exact(w, ray);
+        do {
+            if (!open) {
+                march_step(w, ray, integral);
+                k++;
+            }
+            open = integral_round(integral);
+            if (!open)
+                march_stop(w, integral, stop);
+        } while (GOES_ON && !integral_waits(integral) && walk_fast(w, ray));
+    } while (GOES_ON && !integral_waits(integral));
+#ifdef TF_HARD
+    integral_settle(integral); // where this makes the ray opaque it ends after its next step
+    } while (GOES_ON);
+#endif
+    // What is left may be absorbed behind, or not: half of it is taken to be, in the colour that the ray is in.
+    if (stop.y > 0.0)
+        integral_stop(integral, stop.x);
+    color = integral_end(integral);
+    walk = ivec4(w.cell, w.id);
+    at = vec2(w.z, w.s);
+    return k;
+}
