@@ -38,6 +38,9 @@ tc_status tc_gl_load(tc_gl *gl, tc_get_proc get_proc, tc_error *err)
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &gl->max_texture_size);
     gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &gl->max_texture_3d);
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &gl->max_texture_buffer);
+    const char *fewer = getenv("TETCAST_GL_TEXELS"); /* with which tests make a large mesh of a small one */
+    if (fewer && atoi(fewer) > 0 && atoi(fewer) < gl->max_texture_buffer)
+        gl->max_texture_buffer = atoi(fewer);
     gl->GetIntegerv(GL_MAX_IMAGE_UNITS, &gl->max_image_units);
     gl->poison = tc_gl_setting("TETCAST_GL_POISON");
     return TC_OK;

@@ -106,33 +106,76 @@ static int bin_of(float s)
     return bin < 0 ? 0 : bin >= TC_PACK_BINS ? TC_PACK_BINS - 1 : bin;
 }
 
-/* Returns the cell's weight in `held`, which is left as a sum; 0 where a value is not finite. */
-static double measure_cell(tc_pack_extent *out, const tc_pack *pack, const int32_t *tet, const float *cell_scalar)
+enum { LEVELS = 7 }; /* runs of 1, 2, … 64 bins */
+_Static_assert(1 << (LEVELS - 1) == TC_PACK_BINS, "the longest run is all bins");
+
+/* An extent in the making. What a cell says of the bins between its least and its greatest scalar costs the same however
+ * many they are: two runs of 2^k bins that cover them hold the maxima, and `step` says where whole bins begin and end. */
+typedef struct gather {
+    float edge[LEVELS][TC_PACK_BINS], edge_range[LEVELS][TC_PACK_BINS]; /* of the run that starts at a bin */
+    double held[TC_PACK_BINS], step[TC_PACK_BINS + 1], weight;
+} gather;
+
+static float larger(float a, float b)
 {
-    float edge = 0, lo = INFINITY, hi = -INFINITY;
-    for (int i = 0; i < 4; i++) {
-        const float *p = pack->vertex + 4 * (size_t)tet[i];
-        float s = cell_scalar ? *cell_scalar : p[3];
-        if (isnan(s))
-            return 0; /* contributes nothing */
-        lo = fminf(lo, s);
-        hi = fmaxf(hi, s);
+    return a > b ? a : b;
+}
+
+static void gather_run(gather *g, int level, int bin, float edge, float edge_range)
+{
+    g->edge[level][bin] = larger(g->edge[level][bin], edge);
+    g->edge_range[level][bin] = larger(g->edge_range[level][bin], edge_range);
+}
+
+/* The square of a cell's longest edge. */
+static float longest_square(const float *p[4])
+{
+    float longest = 0;
+    for (int i = 1; i < 4; i++)
         for (int j = 0; j < i; j++) {
-            const float *q = pack->vertex + 4 * (size_t)tet[j];
-            float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-            edge = fmaxf(edge, x * x + y * y + z * z);
+            float x = p[i][0] - p[j][0], y = p[i][1] - p[j][1], z = p[i][2] - p[j][2];
+            longest = larger(longest, x * x + y * y + z * z);
         }
+    return longest;
+}
+
+/* A cell of packed scalars lo … hi; one that is not finite contributes nothing. */
+static void gather_cell(gather *g, const float *p[4], float lo, float hi)
+{
+    float square = longest_square(p), edge = sqrtf(square), edge_range = edge * (hi - lo);
+    double weight = square, from = (double)lo * TC_PACK_BINS, to = (double)hi * TC_PACK_BINS;
+    int first = bin_of(lo), last = bin_of(hi);
+    g->weight += weight;
+    if (first == last) {
+        gather_run(g, 0, first, edge, edge_range);
+        g->held[first] += weight * (to - from);
+        return;
     }
-    double weight = edge;
-    edge = sqrtf(edge);
-    float edge_range = edge * (hi - lo);
-    for (int b = bin_of(lo), last = bin_of(hi); b <= last; b++) {
-        out->edge[b] = fmaxf(out->edge[b], edge);
-        out->edge_range[b] = fmaxf(out->edge_range[b], edge_range);
-        double from = fmax(lo * TC_PACK_BINS, b), to = fmin(hi * TC_PACK_BINS, b + 1);
-        out->held[b] += weight * fmax(to - from, 0);
+    int level = 0;
+    while (2 << level <= last - first + 1)
+        level++;
+    gather_run(g, level, first, edge, edge_range);
+    gather_run(g, level, last + 1 - (1 << level), edge, edge_range);
+    g->held[first] += weight * (first + 1 - from);
+    g->held[last] += weight * (to - last);
+    g->step[first + 1] += weight;
+    g->step[last] -= weight;
+}
+
+/* Each run's maxima onto its two halves, down to single bins. */
+static void gather_finish(tc_pack_extent *out, gather *g)
+{
+    for (int level = LEVELS - 1; level > 0; level--)
+        for (int b = 0; b + (1 << level) <= TC_PACK_BINS; b++)
+            for (int half = 0; half < 2; half++)
+                gather_run(g, level - 1, b + half * (1 << (level - 1)), g->edge[level][b], g->edge_range[level][b]);
+    double whole = 0;
+    for (int b = 0; b < TC_PACK_BINS; b++) {
+        whole += g->step[b];
+        out->edge[b] = g->edge[0][b];
+        out->edge_range[b] = g->edge_range[0][b];
+        out->held[b] = g->held[b] + (whole > 0x1p-40 * g->weight ? whole : 0); /* less is rounding */
     }
-    return weight;
 }
 
 /* Values of cells, and what each chunk adds to the extent. */
@@ -142,12 +185,28 @@ static void extent_range(void *context, size_t begin, size_t end, int worker)
     const work *j = context;
     const tc_pack *pack = j->pack;
     share *s = &j->share[begin / CHUNK];
+    gather g = {0};
     for (size_t i = begin; i < end; i++) {
-        float *value = pack->cell_scalar ? &pack->cell_scalar[i] : NULL;
-        if (value)
-            *value = map_scalar(j->mesh->scalar[i], pack->scalar_lo, pack->scalar_hi);
-        s->weight += measure_cell(&s->extent, pack, j->mesh->tet + 4 * i, value);
+        const int32_t *tet = j->mesh->tet + 4 * i;
+        const float *p[4];
+        for (int k = 0; k < 4; k++)
+            p[k] = pack->vertex + 4 * (size_t)tet[k];
+        if (pack->cell_scalar) {
+            float value = pack->cell_scalar[i] = map_scalar(j->mesh->scalar[i], pack->scalar_lo, pack->scalar_hi);
+            if (!isnan(value))
+                gather_cell(&g, p, value, value);
+            continue;
+        }
+        float lo = p[0][3], hi = lo;
+        for (int k = 1; k < 4; k++) {
+            lo = p[k][3] < lo ? p[k][3] : lo;
+            hi = larger(hi, p[k][3]);
+        }
+        if (!isnan(p[0][3] + p[1][3] + p[2][3] + p[3][3]))
+            gather_cell(&g, p, lo, hi);
     }
+    gather_finish(&s->extent, &g);
+    s->weight = g.weight;
 }
 
 static void sum_extent(tc_pack_extent *out, const share *part, size_t n_part)
@@ -278,7 +337,7 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, int threads, tc_error
         faces += count;
     }
     out->n_face = faces;
-    out->cell = tc_alloc(n, TC_PACK_CELL_INTS * sizeof *out->cell);
+    out->cell = tc_alloc(n * TC_PACK_CELL_INTS + TC_PACK_SPARE_INTS, sizeof *out->cell);
     out->face = tc_alloc(faces, TC_PACK_FACE_INTS * sizeof *out->face);
     out->face_corner = tc_alloc(faces, 9 * sizeof *out->face_corner);
     if (!j.first || !out->cell || !out->face || !out->face_corner) {
@@ -286,6 +345,8 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, int threads, tc_error
         status = tc_fail_memory(err, "the packed mesh", n, 24);
     } else {
         tc_parallel_for(n, CHUNK, threads, cell_range, &j);
+        for (size_t i = 0; i < TC_PACK_SPARE_INTS; i++)
+            out->cell[n * TC_PACK_CELL_INTS + i] = -1;
         out->ms += tc_now_ms() - start;
     }
     free(j.first);

@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.h"
 
-enum { TC_PACK_BINS = 64, TC_PACK_CELL_INTS = 5, TC_PACK_VERTEX_FLOATS = 4, TC_PACK_FACE_INTS = 4 };
+enum { TC_PACK_BINS = 64, TC_PACK_CELL_INTS = 5, TC_PACK_VERTEX_FLOATS = 4, TC_PACK_FACE_INTS = 4, TC_PACK_SPARE_INTS = 3 };
 
 /* How large cells are, by the scalars they hold: what a transfer function needs to know of a mesh to tell whether any
  * segment is optically thick. Bin i: packed scalars i/TC_PACK_BINS … (i+1)/TC_PACK_BINS. Over the real cells that reach
@@ -20,6 +20,7 @@ typedef struct tc_pack_extent {
  * scalars are mapped from scalar_lo … scalar_hi to 0 … 1. 20 bytes a cell, 16 a vertex (after Aman et al. 2022):
  *   cell   [n_cell][5]   XOR of the four vertex ids, then the four neighbours in the order of the sorted
  *                        vertex ids: where their records start (5 x index), -1 outside
+ *                        behind the last record TC_PACK_SPARE_INTS more, -1: upload.c may take ints by fours
  *   vertex [n_vertex][4] x, y, z, scalar (0 with cell data, NaN where a value is not finite)
  *   face   [n_face][4]   boundary faces: three ids counter-clockwise from outside, and the record of the cell behind
  *   face_corner [n_face][3][3] where those three are: stays on the CPU (propose.h)

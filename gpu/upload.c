@@ -73,6 +73,25 @@ static tc_status upload_planes(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack_
     return status;
 }
 
+GLenum tc_gpu_cell_format(const tc_gpu_mesh *mesh)
+{
+    return mesh->cell_ints == 4 ? GL_RGBA32I : mesh->cell_ints == 2 ? GL_RG32I : GL_R32I;
+}
+
+static tc_status upload_cells(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, tc_error *err)
+{
+    const size_t n = pack->n_cell * TC_PACK_CELL_INTS, most = (size_t)gl->max_texture_buffer;
+    out->cell_ints = n <= most ? 1 : (n + 1) / 2 <= most ? 2 : 4;
+    const size_t ints = (size_t)out->cell_ints;
+    _Static_assert(TC_PACK_SPARE_INTS >= 3, "the last texel is whole");
+    if ((n + ints - 1) / ints > most)
+        return tc_fail(err, TC_E_MEMORY,
+                       "%zu cells are more than the %zu that %s can hold in a texture buffer; use a smaller mesh",
+                       pack->n_cell, most / TC_PACK_CELL_INTS * 4, gl->renderer);
+    return upload_buffer(&out->cells, gl, pack->cell, (n + ints - 1) / ints, 4 * ints, tc_gpu_cell_format(out),
+                         "uploading the cells", err);
+}
+
 tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, const tc_pack_planes *planes,
                              tc_error *err)
 {
@@ -82,9 +101,7 @@ tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *p
     out->n_real = pack->n_real;
     out->n_vertex = pack->n_vertex;
     out->n_face = pack->n_face;
-    tc_status status = planes ? upload_planes(out, gl, planes, err)
-                              : upload_buffer(&out->cells, gl, pack->cell, pack->n_cell * TC_PACK_CELL_INTS, 4, GL_R32I,
-                                              "uploading the cells", err);
+    tc_status status = planes ? upload_planes(out, gl, planes, err) : upload_cells(out, gl, pack, err);
     if (status == TC_OK)
         status = upload_buffer(&out->vertices, gl, pack->vertex, pack->n_vertex, 16, GL_RGBA32F,
                                "uploading the vertices", err);
@@ -98,6 +115,44 @@ tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *p
         tc_gpu_mesh_finish(out, gl);
     out->ms = tc_now_ms() - start;
     return status;
+}
+
+/* Other contents of the same size. */
+static void replace_buffer(const tc_texture_buffer *b, const tc_gl *gl, const void *data)
+{
+    gl->BindBuffer(GL_TEXTURE_BUFFER, b->buffer);
+    gl->BufferSubData(GL_TEXTURE_BUFFER, 0, (GLsizeiptr)b->bytes, data);
+    gl->BindBuffer(GL_TEXTURE_BUFFER, 0);
+}
+
+tc_status tc_gpu_mesh_values(tc_gpu_mesh *mesh, size_t *bytes, const tc_gl *gl, const tc_pack *pack, tc_error *err)
+{
+    double start = tc_now_ms();
+    bool had_cells = mesh->cell_scalar.texture != 0;
+    tc_status status = TC_OK;
+    *bytes = 0;
+    if (!had_cells || !pack->cell_scalar) { /* with cell data vertices hold 0 */
+        replace_buffer(&mesh->vertices, gl, pack->vertex);
+        *bytes += mesh->vertices.bytes;
+    }
+    if (had_cells && pack->cell_scalar)
+        replace_buffer(&mesh->cell_scalar, gl, pack->cell_scalar);
+    else if (had_cells)
+        finish_buffer(&mesh->cell_scalar, gl);
+    else if (pack->cell_scalar)
+        status = upload_buffer(&mesh->cell_scalar, gl, pack->cell_scalar, pack->n_real, 4, GL_R32F,
+                               "uploading the cell data", err);
+    *bytes += mesh->cell_scalar.bytes;
+    if (status == TC_OK)
+        status = tc_gl_check(gl, "uploading new values", err);
+    mesh->ms = tc_now_ms() - start;
+    return status;
+}
+
+size_t tc_gpu_mesh_bytes(const tc_gpu_mesh *m)
+{
+    return m->cells.bytes + m->vertices.bytes + m->faces.bytes + m->cell_scalar.bytes + m->planes_vertices.bytes +
+           m->planes_normals.bytes + m->planes_neighbours.bytes + m->planes_scalars.bytes;
 }
 
 void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl)

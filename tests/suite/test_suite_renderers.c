@@ -1,6 +1,8 @@
 /* test_suite_renderers.c: renderers beside each other, and options that no renderer takes. */
+#define _GNU_SOURCE
 #include "suite.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,6 +64,45 @@ static void destroying_a_renderer_breaks_another(void **state)
     assert_true(suite_difference(before, after) <= 0);
     tc_image_destroy(&after);
     tc_image_destroy(&before);
+}
+
+/* Records of more ints than a buffer texture has texels: two or four ints share one. */
+static void a_mesh_beyond_the_limit_of_texels_looks_different(void **state)
+{
+    (void)state;
+    if (!suite_is_gpu())
+        skip();
+    scene s = {.mesh = suite_synth("heatsink", 20000, TC_REENTRY_CONVEXIFY)};
+    tc_mesh_report report;
+    tc_mesh_get_report(&report, s.mesh);
+    s.tf = suite_benchmark(s.mesh);
+    s.camera = suite_camera(s.mesh, 0.4, 0.5, 1, false);
+    s.options = suite_options(SIZE, SIZE);
+    tc_image *before = suite_render(NULL, s.mesh, s.tf, &s.camera, &s.options);
+    const size_t n_int = 5 * (report.n_tet + report.n_imaginary);
+    for (size_t each = 1; each <= 4; each++) { /* as few as do: 3 in a texel is none of ours, and makes 4 */
+        char texels[32];
+        snprintf(texels, sizeof texels, "%zu", (n_int + each - 1) / each);
+        assert_int_equal(setenv("TETCAST_GL_TEXELS", texels, 1), 0);
+        tc_renderer *renderer = suite_renderer(NULL);
+        tc_image *image = render(&s, renderer);
+        assert_memory_equal(image->rgba, before->rgba, (size_t)SIZE * SIZE * 4 * sizeof(float));
+        tc_image_destroy(&image);
+        tc_renderer_destroy(&renderer);
+    }
+    char texels[32];
+    snprintf(texels, sizeof texels, "%zu", n_int / 4 - 1);
+    assert_int_equal(setenv("TETCAST_GL_TEXELS", texels, 1), 0);
+    tc_renderer *renderer = suite_renderer(NULL);
+    tc_error err = {0};
+    tc_image *none = NULL;
+    assert_int_equal(tc_render(&none, NULL, renderer, s.mesh, s.tf, &s.camera, &s.options, NULL, &err), TC_E_MEMORY);
+    assert_non_null(strstr(err.text, "cells are more than"));
+    unsetenv("TETCAST_GL_TEXELS");
+    tc_renderer_destroy(&renderer);
+    tc_image_destroy(&before);
+    tc_transfer_destroy(&s.tf);
+    tc_mesh_destroy(&s.mesh);
 }
 
 static void asking_for_the_back_ends_breaks_a_renderer(void **state)
@@ -147,6 +188,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(destroying_a_renderer_breaks_another),
+        cmocka_unit_test(a_mesh_beyond_the_limit_of_texels_looks_different),
         cmocka_unit_test(asking_for_the_back_ends_breaks_a_renderer),
         cmocka_unit_test(an_unknown_integrator_is_taken),
         cmocka_unit_test(an_unknown_table_format_is_taken),
