@@ -189,6 +189,33 @@ TC_API tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_opt
 /* NULL for a mesh made from arrays. */
 TC_API const tc_source *tc_mesh_source(const tc_mesh *mesh);
 
+/* ------------------------------------------------------------------------------------------------------ cache */
+
+/* What a prepared mesh depends on: the bytes of its file, every setting of reading and preparing that changes the result,
+ * and the builds of library and helpers. Of a dataset of several files (all but VTK's XML files without pieces and legacy
+ * VTK) also names, sizes and times of all files in and below its folder, pictures, .csv and .json left out. */
+typedef struct tc_cache_key {
+    uint64_t word[2];
+} tc_cache_key;
+
+/* read and prepare may be NULL, as for tc_mesh_read and tc_mesh_prepare. To be made before the file is read, and again
+ * after: only if both are equal was it read as it is.
+ * Errors: TC_E_FILE (the file cannot be read; what belongs to the dataset cannot be told: it names files outside of its
+ * folder, one was changed less than 50 ms ago, or there are more than 20 000), TC_E_MEMORY. Cost: reads the file once, some
+ * GB/s; a stat for each file of a folder. What HDF5 or OpenFOAM files include from outside of their folder is not seen. */
+TC_API tc_status tc_cache_key_make(tc_cache_key *out, const char *path, const tc_read_options *read,
+                                   const tc_prepare_options *prepare, tc_error *err);
+/* Writes a mesh that was read and prepared to the file `cache`: beside it, then renamed, so that readers and other writers
+ * see an old or a new one. A file that neither is a cache file nor has a name that ends in .tccache is not written over.
+ * Errors: TC_E_ARG (not prepared, or made from arrays), TC_E_FILE, TC_E_MEMORY. */
+TC_API tc_status tc_mesh_save(const tc_mesh *mesh, const char *cache, const tc_cache_key *key, int threads, tc_error *err);
+/* A mesh as it was saved, prepared; call tc_mesh_prepare all the same: it does nothing, or tries again what a helper could
+ * not do then. path, of the mesh's file, is for tc_source. Times of the report, ms_read and helper_peak_bytes are not
+ * measured (NaN, 0). What was wrong with the mesh goes to log again.
+ * Errors: TC_E_FILE (no such file, another key, cut short or damaged: says which), TC_E_MEMORY. Cost: reads the file once. */
+TC_API tc_status tc_mesh_load(tc_mesh **out, const char *cache, const tc_cache_key *key, const char *path, int threads,
+                              const tc_log *log, tc_error *err);
+
 /* -------------------------------------------------------------------------------------------------- synthetic */
 
 typedef struct tc_synth_info {

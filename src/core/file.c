@@ -65,18 +65,32 @@ static int open_beside(char **path, const char *target)
     }
 }
 
-static tc_status write_directly(const char *path, const void *data, size_t bytes, tc_error *err)
+static tc_status write_parts(int fd, const tc_file_part *part, size_t n, const char *name, tc_error *err)
+{
+    tc_status status = TC_OK;
+    for (size_t i = 0; i < n && status == TC_OK; i++)
+        status = tc_file_write(fd, part[i].data, part[i].bytes, name, err);
+    return status;
+}
+
+static tc_status write_directly(const char *path, const tc_file_part *part, size_t n, tc_error *err)
 {
     int fd = open(path, O_WRONLY | O_CLOEXEC);
     if (fd < 0)
         return fail_write(err, path, errno);
-    tc_status status = tc_file_write(fd, data, bytes, path, err);
+    tc_status status = write_parts(fd, part, n, path, err);
     if (close(fd) != 0 && status == TC_OK)
         status = fail_write(err, path, errno);
     return status;
 }
 
 tc_status tc_file_replace(const char *path, const void *data, size_t bytes, tc_error *err)
+{
+    const tc_file_part part = {data, bytes};
+    return tc_file_replace_parts(path, &part, 1, err);
+}
+
+tc_status tc_file_replace_parts(const char *path, const tc_file_part *part, size_t n, tc_error *err)
 {
     struct stat info;
     char *target = NULL, *beside = NULL;
@@ -85,7 +99,7 @@ tc_status tc_file_replace(const char *path, const void *data, size_t bytes, tc_e
     if (*path == 0 || path[strlen(path) - 1] == '/' || (exists && S_ISDIR(info.st_mode)))
         return fail_write(err, *path ? path : "a file without a name", *path ? EISDIR : ENOENT);
     if (exists && !S_ISREG(info.st_mode))
-        return write_directly(path, data, bytes, err);
+        return write_directly(path, part, n, err);
     target = exists ? realpath(path, NULL) : tc_strdup(path);
     if (!target)
         return fail_write(err, path, errno);
@@ -94,7 +108,7 @@ tc_status tc_file_replace(const char *path, const void *data, size_t bytes, tc_e
         status = fail_write(err, path, errno);
         goto done;
     }
-    status = tc_file_write(fd, data, bytes, path, err);
+    status = write_parts(fd, part, n, path, err);
     if (exists && fchmod(fd, info.st_mode & 07777) != 0 && status == TC_OK)
         status = fail_write(err, path, errno);
     if (close(fd) != 0 && status == TC_OK)

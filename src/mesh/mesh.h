@@ -36,6 +36,7 @@ struct tc_mesh {
 
     bool prepared;
     tc_reentry asked;       /* by the last tc_mesh_prepare */
+    bool gaps_may_do;       /* they were not filled since a helper failed, which it may not do another time */
     uint64_t serial;        /* changes with geometry: a renderer uploads again when it does */
     uint64_t scalar_serial; /* changes with values */
     tc_mesh_report report;
@@ -51,6 +52,8 @@ void tc_mesh_measure_scalar(tc_mesh *mesh);
 /* Sets the report's bounds (of finite vertices), longest_edge and volume from the real tets; an edge or volume that
  * is not finite is left out. The sums do not depend on the number of threads. Errors: TC_E_MEMORY. */
 tc_status tc_mesh_measure(tc_mesh *mesh, int threads, tc_error *err);
+/* Says what became of cells that do not fit together, as tc_mesh_prepare does. */
+void tc_mesh_say_defects(const tc_log *log, const tc_mesh_report *report);
 /* A number that no other call of this process gives: for serial and scalar_serial. */
 uint64_t tc_mesh_new_serial(void);
 

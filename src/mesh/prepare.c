@@ -61,7 +61,7 @@ static tc_status link_mesh(tc_mesh *m, int threads, tc_error *err)
 
 /* Says what became of cells that do not fit together. Overlaps beyond these are not looked for: telling them all would
  * cost more than the picture. */
-static void say_defects(const tc_log *log, const tc_mesh_report *r)
+void tc_mesh_say_defects(const tc_log *log, const tc_mesh_report *r)
 {
     static const char what[] = "these faces are treated as boundaries, where rays leave the mesh and enter again, and "
                                "overlapping cells are composited in the order of entry";
@@ -122,7 +122,7 @@ static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const
     next.prepared = true;
     tc_mesh_finish_arrays(mesh);
     *mesh = next;
-    say_defects(log, &mesh->report);
+    tc_mesh_say_defects(log, &mesh->report);
     return TC_OK;
 }
 
@@ -146,6 +146,7 @@ static tc_status fill_gaps(tc_mesh *m, const tc_prepare_options *o, const tc_log
     tc_error own = {0};
     tc_mesh_strip(m);
     r->reentry = m->asked = TC_REENTRY_PEEL;
+    m->gaps_may_do = false;
     r->reentry_why[0] = 0;
     r->ms_convexify = NAN;
     m->serial = tc_mesh_new_serial();
@@ -161,6 +162,7 @@ static tc_status fill_gaps(tc_mesh *m, const tc_prepare_options *o, const tc_log
     }
     tc_boundary_finish(&boundary);
     if (status != TC_OK) {
+        m->gaps_may_do = status == TC_E_WORKER || status == TC_E_MEMORY;
         copy_text(r->reentry_why, sizeof r->reentry_why, own.text);
         if (o->reentry == TC_REENTRY_CONVEXIFY)
             return tc_fail(err, status,

@@ -17,7 +17,7 @@ includes() {
     # A room may include rooms of a lower rank, and itself.
     BEGIN {
         rank["core"] = 0; rank["mesh"] = 1
-        rank["scene"] = rank["shell"] = rank["image"] = 2
+        rank["cache"] = rank["scene"] = rank["shell"] = rank["image"] = 2
         rank["transfer_functions"] = rank["datasets_synthetic"] = rank["readers"] = 2
         rank["gpu"] = rank["reference"] = 3
         rank["api"] = 4; rank["study"] = rank["window"] = 5
