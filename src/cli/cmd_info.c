@@ -1,7 +1,7 @@
 /* cmd_info.c: `tetcast info`: what a file holds and what is wrong with it, as a table or as JSON. */
 #include "cli/commands.h"
 #include "cli/info_text.h"
-#include "cli/input.h"
+#include "cli/input_cache.h"
 
 #include <math.h>
 
@@ -13,6 +13,7 @@ typedef struct tc_info_command {
 static const tc_option tc_info_option[] = {
     TC_INPUT_FIELD_ROWS(tc_info_command, source),
     TC_INPUT_GAP_ROW(tc_info_command, source),
+    TC_INPUT_CACHE_ROWS(tc_info_command, source),
     TC_INPUT_THREADS_ROW(tc_info_command, source),
     {"--seed", 0, "S", "of a synthetic dataset; default 1", TC_OPTION_U64,
      .at = TC_INPUT_AT(tc_info_command, source, seed)},
@@ -25,16 +26,16 @@ static int tc_info_run(tc_talk *talk, const tc_command *command, int argc, char 
     const char *input;
     int n_argument;
     tc_mesh *mesh = NULL;
-    tc_info info = {.ms_read = NAN};
+    tc_info info = {0};
     int code = tc_options_parse(&options, &input, &n_argument, talk, command, argc, argv);
     if (code < 0)
         code = tc_input_check(&options.source, talk);
-    if (code < 0)
-        code = tc_input_load(&mesh, &info.ms_read, &options.source, input, talk);
     if (code >= 0)
         return code;
     /* A mesh that cannot be rendered is still told about; the exit code then says that it failed. */
-    code = tc_input_prepare(mesh, &options.source, talk);
+    code = tc_input_open(&mesh, &info.seen, &options.source, input, talk);
+    if (!mesh)
+        return code;
     info.input = input;
     info.prepared = code < 0;
     info.source = tc_mesh_source(mesh);

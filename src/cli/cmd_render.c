@@ -258,12 +258,11 @@ int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, ch
     frames.first_hit = frames.frame + options.repeat;
     frames.march = frames.first_hit + options.repeat;
     frames.readback = frames.march + options.repeat;
-    code = tc_input_load(&run.mesh, &run.ms_read, &options.source, options.input, talk);
-    const tc_source *source = code < 0 ? tc_mesh_source(run.mesh) : NULL;
+    code = tc_input_open(&run.mesh, &run.seen, &options.source, options.input, talk);
+    run.ms_read = run.seen.ms_read;
+    const tc_source *source = run.mesh ? tc_mesh_source(run.mesh) : NULL;
     for (size_t i = 0; source && i < source->n_note; i++)
         tc_talk_say(talk, "%s: %s", options.input, source->note[i]);
-    if (code < 0)
-        code = tc_input_prepare(run.mesh, &options.source, talk);
     if (code < 0) {
         tc_mesh_get_report(&run.report, run.mesh);
         tc_nonfinite_say(&run, talk);

@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "cli/commands.h"
 #include "cli/gnuplot.h"
+#include "cli/input_cache.h"
 #include "cli/json_out.h"
 #include "cli/render_options.h"
 
@@ -58,6 +59,7 @@ static const tc_option tc_study_option[] = {
     {.help = "Data"},
     TC_INPUT_FIELD_ROWS(tc_study_command, source),
     TC_INPUT_GAP_ROW(tc_study_command, source),
+    TC_INPUT_CACHE_ROWS(tc_study_command, source),
     {.help = "Transfer function"},
     {"--color-map", 0, "NAME|FILE", "a built-in map, or a ParaView preset (.json, .xml)", TC_OPTION_TEXT, AT(color_map)},
     {"--preset", 0, "NAME", "which map of a file that holds several; default the first", TC_OPTION_TEXT, AT(preset)},
@@ -276,7 +278,7 @@ static int tc_study_input(tc_study *study, const char *input, const tc_study_com
                           const tc_study_names *functions, tc_talk *talk)
 {
     char scene[480];
-    double ms_read;
+    tc_input_seen seen;
     tc_mesh *mesh = NULL;
     int code = -1;
     bool missing = false;
@@ -284,9 +286,7 @@ static int tc_study_input(tc_study *study, const char *input, const tc_study_com
     for (int f = 0; f < functions->n; f++)
         missing = missing || !tc_study_has(study, scene, functions->name[f]);
     if (missing)
-        code = tc_input_load(&mesh, &ms_read, &options->source, input, talk);
-    if (missing && code < 0)
-        code = tc_input_prepare(mesh, &options->source, talk);
+        code = tc_input_open(&mesh, &seen, &options->source, input, talk);
     for (int f = 0; missing && f < functions->n && code < 0; f++) {
         tc_error err = {0};
         tc_transfer *tf = NULL;

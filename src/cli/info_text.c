@@ -248,7 +248,7 @@ json_t *tc_info_json(const tc_info *info)
     if (info->source)
         json_object_set_new(json, "source", tc_source_json(info->source));
     json_object_set_new(json, "mesh", tc_report_json(info));
-    tc_json_measured(time, "read", info->ms_read);
+    tc_json_measured(time, "read", info->seen.ms_read);
     if (info->prepared) {
         tc_json_measured(time, "check", info->report.ms_check);
         tc_json_measured(time, "adjacency", info->report.ms_adjacency);
@@ -256,5 +256,8 @@ json_t *tc_info_json(const tc_info *info)
         tc_json_measured(time, "convexify", info->report.ms_convexify);
     }
     json_object_set_new(json, "time_ms", time);
+    json_t *cache = tc_input_cache_json(&info->seen);
+    if (cache)
+        json_object_set_new(json, "cache", cache);
     return json;
 }

@@ -2,14 +2,14 @@
 #ifndef TC_CLI_INFO_TEXT_H
 #define TC_CLI_INFO_TEXT_H
 
-#include "cli/json_out.h"
+#include "cli/input_cache.h"
 
 typedef struct tc_info {
     const char *input;
     const tc_source *source; /* NULL for a synthetic dataset */
     tc_mesh_report report;
     bool prepared;  /* tc_mesh_prepare went well: the report is whole */
-    double ms_read; /* NAN: not read from a file */
+    tc_input_seen seen;
     double unit_distance;
 } tc_info;
 

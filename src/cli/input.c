@@ -80,18 +80,14 @@ static int tc_synth_load(tc_mesh **out, const tc_input_options *options, const c
     return status ? tc_talk_status(talk, status, &err) : -1;
 }
 
-int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *options, const char *input, tc_talk *talk)
+bool tc_input_is_synthetic(const char *input)
 {
-    tc_error err = {0};
-    *ms_read = NAN;
-    if (!strncmp(input, TC_SYNTH_PREFIX, strlen(TC_SYNTH_PREFIX)))
-        return tc_synth_load(out, options, input + strlen(TC_SYNTH_PREFIX), talk);
-    if (access(input, R_OK) != 0) {
-        tc_talk_error(talk, "%s cannot be read: %s%s", input, strerror(errno),
-                      errno == ENOENT ? "; check the path (synthetic datasets are written synth:NAME)" : "");
-        return TC_EXIT_FAILED;
-    }
-    tc_read_options read = {
+    return !strncmp(input, TC_SYNTH_PREFIX, strlen(TC_SYNTH_PREFIX));
+}
+
+tc_read_options tc_input_read_options(const tc_input_options *options)
+{
+    return (tc_read_options){
         .field = options->field,
         .association = options->cell_data    ? TC_CELL_DATA
                        : options->point_data ? TC_POINT_DATA
@@ -103,6 +99,25 @@ int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *option
         .refine = options->refine,
         .idle_limit_s = options->idle_limit,
     };
+}
+
+tc_prepare_options tc_input_prepare_options(const tc_input_options *options)
+{
+    return (tc_prepare_options){.reentry = (tc_reentry)options->reentry, .threads = options->threads};
+}
+
+int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *options, const char *input, tc_talk *talk)
+{
+    tc_error err = {0};
+    *ms_read = NAN;
+    if (tc_input_is_synthetic(input))
+        return tc_synth_load(out, options, input + strlen(TC_SYNTH_PREFIX), talk);
+    if (access(input, R_OK) != 0) {
+        tc_talk_error(talk, "%s cannot be read: %s%s", input, strerror(errno),
+                      errno == ENOENT ? "; check the path (synthetic datasets are written synth:NAME)" : "");
+        return TC_EXIT_FAILED;
+    }
+    tc_read_options read = tc_input_read_options(options);
     double start = tc_talk_clock_s();
     tc_status status = tc_mesh_read(out, input, &read, &talk->log, &err);
     *ms_read = 1e3 * (tc_talk_clock_s() - start);
@@ -112,7 +127,7 @@ int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *option
 int tc_input_prepare(tc_mesh *mesh, const tc_input_options *options, tc_talk *talk)
 {
     tc_error err = {0};
-    tc_prepare_options prepare = {.reentry = (tc_reentry)options->reentry, .threads = options->threads};
+    tc_prepare_options prepare = tc_input_prepare_options(options);
     tc_status status = tc_mesh_prepare(mesh, &prepare, &talk->log, &err);
     return status ? tc_talk_status(talk, status, &err) : -1;
 }
@@ -120,7 +135,7 @@ int tc_input_prepare(tc_mesh *mesh, const tc_input_options *options, tc_talk *ta
 void tc_input_stem(char *out, size_t capacity, const char *input)
 {
     char *real = NULL;
-    if (!strncmp(input, TC_SYNTH_PREFIX, strlen(TC_SYNTH_PREFIX))) {
+    if (tc_input_is_synthetic(input)) {
         const char *name = input + strlen(TC_SYNTH_PREFIX);
         snprintf(out, capacity, "%.*s", (int)strcspn(name, ":"), name);
         return;

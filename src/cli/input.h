@@ -13,6 +13,8 @@ typedef struct tc_input_options {
     int reentry; /* tc_reentry */
     int threads;
     uint64_t seed;
+    bool cache;             /* beside INPUT */
+    const char *cache_file; /* a file or a folder; NULL: none */
 } tc_input_options;
 
 /* Rows for a command's table whose struct has a tc_input_options named `member`. */
@@ -39,6 +41,11 @@ typedef struct tc_input_options {
 #define TC_INPUT_GAP_ROW(type, member)                                                                                 \
     {"--reentry", 0, "auto|convexify|peel", "how rays cross gaps: fill them with cells that only lead on, or peel",    \
      TC_OPTION_CHOICE, .at = TC_INPUT_AT(type, member, reentry), .choice = tc_reentry_choice}
+#define TC_INPUT_CACHE_ROWS(type, member)                                                                              \
+    {"--cache", 0, NULL, "keep the prepared mesh in INPUT.tccache; with the same input and settings it is taken from there", \
+     TC_OPTION_FLAG, .at = TC_INPUT_AT(type, member, cache)},                                                          \
+    {"--cache-file", 0, "FILE|FOLDER", "keep it there instead; in a folder, one file for each input and its settings", \
+     TC_OPTION_TEXT, .at = TC_INPUT_AT(type, member, cache_file)}
 #define TC_INPUT_THREADS_ROW(type, member)                                                                             \
     {"--threads", 0, "N", "CPU threads; default all cores", TC_OPTION_INT, .at = TC_INPUT_AT(type, member, threads), .low = 1, \
      .high = 4096}
@@ -52,6 +59,10 @@ int tc_input_check(const tc_input_options *options, tc_talk *talk);
 /* Reads or makes the mesh, not yet prepared. *ms_read: wall time of reading, NAN for a synthetic one.
  * -1 to go on, else the exit code of an error that was printed. */
 int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *options, const char *input, tc_talk *talk);
+/* What tc_mesh_read and tc_mesh_prepare are asked for. */
+tc_read_options tc_input_read_options(const tc_input_options *options);
+tc_prepare_options tc_input_prepare_options(const tc_input_options *options);
+bool tc_input_is_synthetic(const char *input);
 /* tc_mesh_prepare with these options. The same codes. */
 int tc_input_prepare(tc_mesh *mesh, const tc_input_options *options, tc_talk *talk);
 

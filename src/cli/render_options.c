@@ -161,6 +161,7 @@ static const tc_option tc_render_option[] = {
     {"--time", 0, "T", "the step at or before this time; a number that ends in ms is --frame-time", TC_OPTION_CUSTOM, .at = 0, .parse = tc_time_parse},
     TC_INPUT_STEP_ROWS(tc_render_command, source),
     TC_INPUT_GAP_ROW(tc_render_command, source),
+    TC_INPUT_CACHE_ROWS(tc_render_command, source),
     {.help = "Picture"},
     {"--output", 'o', "FILE", "png, exr, tif or jpg by extension; - for PNG on stdout; default INPUT's name + .png, here", TC_OPTION_TEXT, AT(output)},
     {"--size", 0, "WxH", "pixels; default 512x512", TC_OPTION_CUSTOM, AT(size), .parse = tc_size_parse},

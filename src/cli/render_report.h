@@ -2,7 +2,7 @@
 #ifndef TC_CLI_RENDER_REPORT_H
 #define TC_CLI_RENDER_REPORT_H
 
-#include "cli/json_out.h"
+#include "cli/input_cache.h"
 #include "cli/render_options.h"
 
 /* A median with its extremes; NAN where not measured. */
@@ -23,6 +23,7 @@ typedef struct tc_render_run {
     tc_render_options render;
     tc_image *image; /* before its background is laid under it */
 
+    tc_input_seen seen;
     double ms_read, ms_write, ms_total; /* NAN: not measured */
     tc_render_stats first;              /* the first frame: it paid for packing, upload, table, programs */
     tc_render_stats count;              /* of the counted frame where there is one, else of the last */

@@ -178,6 +178,8 @@ json_t *tc_render_stats_json(const tc_render_run *run)
     tc_json_part(out, "gl", tc_gl_json(run));
     tc_json_part(out, "mesh", tc_mesh_json(run));
     tc_json_part(out, "time_ms", tc_time_json(run));
+    if (run->seen.cache[0])
+        tc_json_part(out, "cache", tc_input_cache_json(&run->seen));
     tc_json_count(out, "frames", (uint64_t)run->frames);
     tc_json_part(out, "march", tc_march_json(run));
     json_object_set_new(out, "effects", json_pack("[s]", "density-emitter"));
