@@ -7,9 +7,11 @@
 #   make valgrind   what needs no GL under Valgrind's memcheck, in build/valgrind
 #   make hard       the hard cases at length: 100 million rays, beside VTK's renderers; tables in build/hard-cases
 #   make fuzz       FUZZ_SECONDS (60) of random inputs for each part that reads what others wrote; FUZZ_TARGETS=… for some
-#   make bench      measure, side by side with VTK; what exact signs cost
-#   make docs       the figures in docs/images, docs/accuracy.md (20 minutes; ACCURACY_ARGS=--quick tries it in
-#                   build/accuracy-quick), and the manual pages as HTML in build/docs
+#   make bench      measure speed, memory and growth, side by side with VTK (12 minutes); results in build/bench/results.json.
+#                   BENCH_ARGS=--quick tries it, BENCH_ARGS="--only peers,parts" takes some; --help tells more
+#   make docs       the figures in docs/images, docs/performance.md of the last make bench, docs/accuracy.md (20 minutes;
+#                   ACCURACY_ARGS=--quick tries it in build/accuracy-quick), and the manual pages as HTML in build/docs
+#   make performance  docs/performance.md alone
 #   make install    to PREFIX (/usr/local), below DESTDIR
 #   make clean
 #
@@ -43,7 +45,7 @@ else
 packages = :
 endif
 
-.PHONY: all configure demo test sanitize valgrind hard fuzz bench docs install clean
+.PHONY: all configure demo test sanitize valgrind hard fuzz bench docs performance install clean
 .DEFAULT_GOAL := all
 
 all: configure
@@ -98,14 +100,15 @@ fuzz:
 	done; exit $$status
 
 bench: all
-	@$(call packages,$(BENCH_PACKAGES))
-	cmake --build $(BUILD) -j $(JOBS) --target bench_table
-	$(BUILD)/bench_table
-	/usr/bin/python3 tests/bench/bench.py $(BENCH_ARGS)
-	sh tests/hard/cost.sh $(BUILD)/tetcast gpu/shaders
+	@$(call packages,$(BENCH_PACKAGES) $(VALGRIND_PACKAGES))
+	cmake --build $(BUILD) -j $(JOBS) --target bench_programs
+	/usr/bin/python3 tests/bench/bench.py --build $(BUILD) $(BENCH_ARGS)
 
-docs: all
+performance:
 	@$(call packages,$(DOCS_PACKAGES))
+	/usr/bin/python3 docs/performance.py $(BUILD)/bench/results.json
+
+docs: all performance
 	sh docs/figures.sh $(BUILD)/tetcast
 	/usr/bin/python3 docs/accuracy.py $(BUILD)/tetcast $(BUILD)/accuracy $(ACCURACY_ARGS)
 	@mkdir -p $(BUILD)/docs
