@@ -2,6 +2,7 @@
 #include "synth.h"
 
 #include "core/memory.h"
+#include "core/room.h"
 #include "soup.h"
 
 #include <math.h>
@@ -71,7 +72,11 @@ tc_status tc_synth_create(tc_mesh **out, const char *name, size_t n_cells, uint6
         return tc_fail(err, TC_E_ARG, "%zu cells are too many for 32-bit ids; ask for at most 2000000000", n_cells);
 
     tc_synth_soup soup = {0};
-    tc_status status = g->build(&soup, n_cells ? n_cells : g->default_cells, seed, err);
+    /* four vertices a tet, at least 4.5 tets for each three doubles and a value, and the mesh copies them */
+    tc_status status = tc_room_check(n_cells * 2 * (16 + 32 * 2 / 9), err, "making %zu cells", n_cells);
+    if (status)
+        goto done;
+    status = g->build(&soup, n_cells ? n_cells : g->default_cells, seed, err);
     if (status)
         goto done;
     status = sample(&soup, g, err);

@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "core/room.h"
 #include "transfer_functions/place.h"
 
 #include <math.h>
@@ -121,28 +122,24 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
+static float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+/* Branches, for few are larger. */
 static void gather_run(gather *g, int level, int bin, float edge, float edge_range)
 {
-    g->edge[level][bin] = larger(g->edge[level][bin], edge);
-    g->edge_range[level][bin] = larger(g->edge_range[level][bin], edge_range);
+    if (edge > g->edge[level][bin])
+        g->edge[level][bin] = edge;
+    if (edge_range > g->edge_range[level][bin])
+        g->edge_range[level][bin] = edge_range;
 }
 
-/* The square of a cell's longest edge. */
-static float longest_square(const float *p[4])
+/* A cell of packed scalars lo … hi. */
+static void gather_cell(gather *g, float square, float edge, float lo, float hi)
 {
-    float longest = 0;
-    for (int i = 1; i < 4; i++)
-        for (int j = 0; j < i; j++) {
-            float x = p[i][0] - p[j][0], y = p[i][1] - p[j][1], z = p[i][2] - p[j][2];
-            longest = larger(longest, x * x + y * y + z * z);
-        }
-    return longest;
-}
-
-/* A cell of packed scalars lo … hi; one that is not finite contributes nothing. */
-static void gather_cell(gather *g, const float *p[4], float lo, float hi)
-{
-    float square = longest_square(p), edge = sqrtf(square), edge_range = edge * (hi - lo);
+    float edge_range = edge * (hi - lo);
     double weight = square, from = (double)lo * TC_PACK_BINS, to = (double)hi * TC_PACK_BINS;
     int first = bin_of(lo), last = bin_of(hi);
     g->weight += weight;
@@ -178,6 +175,42 @@ static void gather_finish(tc_pack_extent *out, gather *g)
     }
 }
 
+/* Some cells side by side, so that one instruction serves several. */
+enum { LANES = 64 };
+
+typedef struct lanes {
+    float corner[4][4][LANES]; /* x, y, z and scalar of each corner */
+    float square[LANES], edge[LANES], lo[LANES], hi[LANES], known[LANES];
+} lanes;
+
+static void load_lanes(lanes *l, const float *vertex, const int32_t *tet, size_t n)
+{
+    for (size_t c = 0; c < n; c++)
+        for (int i = 0; i < 4; i++)
+            for (int k = 0; k < 4; k++)
+                l->corner[i][k][c] = vertex[4 * (size_t)tet[4 * c + (size_t)i] + (size_t)k];
+}
+
+/* The longest edges and their squares; the least and greatest scalar, and a NaN in `known` where one is not finite. */
+static void measure_lanes(lanes *l)
+{
+    memset(l->square, 0, sizeof l->square);
+    for (int i = 1; i < 4; i++)
+        for (int j = 0; j < i; j++)
+            for (int c = 0; c < LANES; c++) {
+                float x = l->corner[i][0][c] - l->corner[j][0][c], y = l->corner[i][1][c] - l->corner[j][1][c];
+                float z = l->corner[i][2][c] - l->corner[j][2][c], square = x * x + y * y + z * z;
+                l->square[c] = larger(square, l->square[c]);
+            }
+    for (int c = 0; c < LANES; c++) {
+        float s[4] = {l->corner[0][3][c], l->corner[1][3][c], l->corner[2][3][c], l->corner[3][3][c]};
+        l->edge[c] = sqrtf(l->square[c]);
+        l->lo[c] = smaller(smaller(s[0], s[1]), smaller(s[2], s[3]));
+        l->hi[c] = larger(larger(s[0], s[1]), larger(s[2], s[3]));
+        l->known[c] = s[0] + s[1] + s[2] + s[3];
+    }
+}
+
 /* Values of cells, and what each chunk adds to the extent. */
 static void extent_range(void *context, size_t begin, size_t end, int worker)
 {
@@ -186,24 +219,20 @@ static void extent_range(void *context, size_t begin, size_t end, int worker)
     const tc_pack *pack = j->pack;
     share *s = &j->share[begin / CHUNK];
     gather g = {0};
-    for (size_t i = begin; i < end; i++) {
-        const int32_t *tet = j->mesh->tet + 4 * i;
-        const float *p[4];
-        for (int k = 0; k < 4; k++)
-            p[k] = pack->vertex + 4 * (size_t)tet[k];
-        if (pack->cell_scalar) {
-            float value = pack->cell_scalar[i] = map_scalar(j->mesh->scalar[i], pack->scalar_lo, pack->scalar_hi);
-            if (!isnan(value))
-                gather_cell(&g, p, value, value);
-            continue;
+    lanes l = {0};
+    for (size_t i = begin; i < end; i += LANES) {
+        size_t n = end - i < LANES ? end - i : LANES;
+        load_lanes(&l, pack->vertex, j->mesh->tet + 4 * i, n);
+        for (size_t c = 0; c < n && pack->cell_scalar; c++) {
+            float value = map_scalar(j->mesh->scalar[i + c], pack->scalar_lo, pack->scalar_hi);
+            pack->cell_scalar[i + c] = value;
+            for (int k = 0; k < 4; k++)
+                l.corner[k][3][c] = value;
         }
-        float lo = p[0][3], hi = lo;
-        for (int k = 1; k < 4; k++) {
-            lo = p[k][3] < lo ? p[k][3] : lo;
-            hi = larger(hi, p[k][3]);
-        }
-        if (!isnan(p[0][3] + p[1][3] + p[2][3] + p[3][3]))
-            gather_cell(&g, p, lo, hi);
+        measure_lanes(&l);
+        for (size_t c = 0; c < n; c++)
+            if (!isnan(l.known[c]))
+                gather_cell(&g, l.square[c], l.edge[c], l.lo[c], l.hi[c]);
     }
     gather_finish(&s->extent, &g);
     s->weight = g.weight;
@@ -323,7 +352,11 @@ tc_status tc_pack_scalars(tc_pack *out, const tc_mesh *mesh, int threads, tc_err
 
 tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, int threads, tc_error *err)
 {
-    tc_status status = tc_pack_scalars(out, mesh, threads, err);
+    memset(out, 0, sizeof *out);
+    tc_status status = tc_room_check(2 * (20 * (mesh->n_tet + mesh->n_imaginary) + 16 * mesh->n_vertex), err,
+                                     "rendering %zu cells", mesh->n_tet + mesh->n_imaginary); /* GL copies it */
+    if (status == TC_OK)
+        status = tc_pack_scalars(out, mesh, threads, err);
     if (status != TC_OK)
         return status;
     double start = tc_now_ms();

@@ -1,6 +1,7 @@
 /* prepare.c: the way of a mesh from arrays to what the casters read: repair, order, adjacency, gaps. */
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "core/room.h"
 #include "mesh/adjacency.h"
 #include "mesh/boundary.h"
 #include "mesh/convexify.h"
@@ -73,6 +74,15 @@ void tc_mesh_say_defects(const tc_log *log, const tc_mesh_report *r)
                what);
     if (r->dropped_duplicate > 0)
         tc_say(log, TC_INFO, "%zu cells are there more than once: the copies were dropped", r->dropped_duplicate);
+}
+
+/* Beside the mesh itself, at most: until the arrays it came in are given back, new ones (16 B a tet for its vertices, 4 for
+ * where it came from, 36 a vertex) with links (16) and what finds them (10); then, in place of the old ones (16 and 32), what
+ * gpu/pack.c and GL's copy of it take (40 and 32). */
+static size_t memory_of(const tc_mesh *m)
+{
+    size_t values = m->association == TC_CELL_DATA ? 8 : 0;
+    return m->n_tet * (60 + values) + m->n_vertex * 36;
 }
 
 static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const tc_log *log, tc_error *err)
@@ -200,7 +210,11 @@ tc_status tc_mesh_prepare(tc_mesh *mesh, const tc_prepare_options *options, cons
     if (mesh->prepared && in_force(mesh, o->reentry))
         return TC_OK;
     if (!mesh->prepared) {
-        tc_status status = prepare_first(mesh, o, log, err);
+        tc_status status =
+            tc_room_check(memory_of(mesh), err, "preparing and rendering %zu tetrahedra", mesh->n_tet);
+        if (status != TC_OK)
+            return status;
+        status = prepare_first(mesh, o, log, err);
         if (status != TC_OK)
             return status;
     }

@@ -1,4 +1,5 @@
 /* test_mesh_prepare.c: creating, repairing and linking hand-made meshes, and giving them new values. */
+#define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -165,6 +166,26 @@ static void repairs_depend_on_the_number_of_threads(void **state)
     free(scalar);
     tc_mesh_destroy(&b);
     end(&a, &s);
+}
+
+static void a_mesh_too_large_for_memory_is_begun_or_spoilt(void **state)
+{
+    (void)state;
+    shape s = {0};
+    const int n[3] = {5, 5, 5};
+    shape_grid(&s, n, NULL);
+    tc_mesh *m = shape_mesh(&s, NULL, TC_POINT_DATA);
+    tc_error err = {0};
+    const tc_prepare_options options = {.reentry = TC_REENTRY_PEEL};
+    assert_int_equal(setenv("TETCAST_MEMORY", "40K", 1), 0);
+    assert_int_equal(tc_mesh_prepare(m, &options, NULL, &err), TC_E_MEMORY);
+    assert_non_null(strstr(err.text, "750 tetrahedra needs about"));
+    assert_false(m->prepared);
+    assert_int_equal(setenv("TETCAST_MEMORY", "80K", 1), 0);
+    assert_int_equal(tc_mesh_prepare(m, &options, NULL, &err), TC_OK);
+    unsetenv("TETCAST_MEMORY");
+    shape_check_promises(m);
+    end(&m, &s);
 }
 
 static void bad_cells_are_dropped_and_counted(void **state)
@@ -642,6 +663,7 @@ int main(void)
         cmocka_unit_test(a_kuhn_grid_is_linked_whole),
         cmocka_unit_test(the_result_does_not_depend_on_the_number_of_threads),
         cmocka_unit_test(repairs_depend_on_the_number_of_threads),
+        cmocka_unit_test(a_mesh_too_large_for_memory_is_begun_or_spoilt),
         cmocka_unit_test(bad_cells_are_dropped_and_counted),
         cmocka_unit_test(an_equal_cell_keeps_the_value_of_the_first),
         cmocka_unit_test(duplicated_points_are_merged_when_their_values_agree),
