@@ -25,6 +25,7 @@
     X(PFNGLBLENDEQUATIONSEPARATEPROC, BlendEquationSeparate)                                                           \
     X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                                           \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                                                 \
+    X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                                           \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                                         \
     X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                                                                           \
     X(PFNGLCLEARBUFFERIVPROC, ClearBufferiv)                                                                           \

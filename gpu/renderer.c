@@ -105,12 +105,43 @@ const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer)
     return renderer->context;
 }
 
+static void take_values(tc_gpu_renderer *r, const tc_mesh *mesh, const tc_pack *pack)
+{
+    r->extent = pack->extent;
+    r->scalar_lo = pack->scalar_lo;
+    r->scalar_hi = pack->scalar_hi;
+    r->mesh_serial = mesh->serial;
+    r->scalar_serial = mesh->scalar_serial;
+}
+
+/* New values on the mesh that is there. */
+static tc_status update_values(tc_gpu_renderer *r, const tc_mesh *mesh, tc_render_stats *stats, tc_error *err)
+{
+    tc_pack pack;
+    size_t bytes = 0;
+    r->mesh_serial = r->scalar_serial = 0; /* on failure all is uploaded anew */
+    tc_status status = tc_pack_scalars(&pack, mesh, r->threads, err);
+    if (status == TC_OK)
+        status = tc_gpu_mesh_values(&r->mesh, &bytes, &r->context->gl, &pack, err);
+    if (status == TC_OK) {
+        take_values(r, mesh, &pack);
+        stats->ms_pack = pack.ms;
+        stats->ms_upload = r->mesh.ms;
+        stats->gpu_bytes_sent = (double)bytes;
+    }
+    tc_pack_finish(&pack);
+    return status;
+}
+
 static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, bool planes, tc_render_stats *stats,
                              tc_error *err)
 {
     const tc_gl *gl = &r->context->gl;
+    stats->gpu_bytes_sent = 0;
     if (r->mesh_serial == mesh->serial && r->scalar_serial == mesh->scalar_serial && r->planes == planes)
         return TC_OK;
+    if (r->mesh_serial == mesh->serial && !planes && !r->planes)
+        return update_values(r, mesh, stats, err);
     tc_gpu_mesh_finish(&r->mesh, gl);
     r->mesh_serial = r->scalar_serial = 0;
     tc_pack pack;
@@ -126,16 +157,13 @@ static tc_status ensure_mesh(tc_gpu_renderer *r, const tc_mesh *mesh, bool plane
         r->planes = planes;
         memcpy(r->center, pack.center, sizeof r->center);
         r->scale = pack.scale;
-        r->extent = pack.extent;
-        r->scalar_lo = pack.scalar_lo;
-        r->scalar_hi = pack.scalar_hi;
-        r->mesh_serial = mesh->serial;
-        r->scalar_serial = mesh->scalar_serial;
+        take_values(r, mesh, &pack);
         free(r->face_corner);
         r->face_corner = pack.face_corner;
         pack.face_corner = NULL;
         stats->ms_pack = pack.ms + table1.ms;
         stats->ms_upload = r->mesh.ms;
+        stats->gpu_bytes_sent = (double)tc_gpu_mesh_bytes(&r->mesh);
     }
     tc_pack_planes_finish(&table1);
     tc_pack_finish(&pack);

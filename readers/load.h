@@ -22,6 +22,8 @@ struct ReadRequest {
     int step = 0;
     int refine = 0;
     bool all_ranges = false; // read every array, not only the wanted one
+    bool keep = false;       // more requests follow
+    std::string mesh;        // hash of the mesh that need not be sent; "": none
 };
 
 // One file being read. The default methods serve any VTK reader with array selections and time steps.

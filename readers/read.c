@@ -1,7 +1,11 @@
-/* read.c: tc_mesh_read: asks the helper program tetcast-read for one step of a file and makes a mesh of its arrays.
+/* read.c: tc_mesh_read: asks the helper program tetcast-read for one step of a file and makes a mesh of its arrays;
+ * tc_mesh_read_values: takes the values alone where the mesh is there already.
  *
- * Request: {"do": "read", "path", "field"?, "association": 0..2, "time"?, "step"?, "refine", "all_ranges"}.
- * Result: {"format", "reader", "field"?, "association"?, "points", "cells", "solid_cells", "dropped_cells",
+ * Request: {"do": "read", "path", "field"?, "association": 0..2, "time"?, "step"?, "refine", "all_ranges", "keep",
+ * "mesh"?}: keep: more requests follow, so what tells whether the mesh is the same may be kept; mesh: leave vertex, tet
+ * and cell out where mesh_hash comes out as this.
+ * Result: {"mesh_hash": 16 hexadecimal digits, "same_mesh": were arrays left out?, "format", "reader", "field"?,
+ * "association"?, "points", "cells", "solid_cells", "dropped_cells",
  * "degenerate", "turned", "unused_points", "merged_points", "linearised", "refine", "step", "times": [], "offered":
  * [{"name", "association", "components", "ranged", "lo"?, "hi"?}], "cell_types": [{"type", "dimension", "count"}],
  * "notes": []} and the arrays vertex (f64), tet (i32), cell (i64: the file's cell of each tet), scalar (f64; absent
@@ -12,14 +16,20 @@
 #include "core/worker.h"
 #include "mesh/mesh.h"
 
+#include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
+enum { TC_HASH_TEXT = 17 }; /* characters of a hash, with the end */
+
 /* ------------------------------------------------------------------------------------------ request */
 
-static tc_status make_request(json_t **out, const char *path, const tc_read_options *options, tc_error *err)
+/* known: the hash of a mesh that need not be sent; 0: none. */
+static tc_status make_request(json_t **out, const char *path, const tc_read_options *options, bool keep,
+                              uint64_t known, tc_error *err)
 {
     json_t *request = json_object();
     int bad = !request;
@@ -40,6 +50,12 @@ static tc_status make_request(json_t **out, const char *path, const tc_read_opti
             return tc_fail(err, TC_E_ARG, "the name of the array is not UTF-8");
         }
         bad |= json_object_set_new(request, "field", field);
+    }
+    bad |= json_object_set_new(request, "keep", json_boolean(keep));
+    if (known) {
+        char text[TC_HASH_TEXT];
+        snprintf(text, sizeof text, "%016" PRIx64, known);
+        bad |= json_object_set_new(request, "mesh", json_string(text));
     }
     if (options->has_time)
         bad |= json_object_set_new(request, "time", json_real(options->time));
@@ -161,7 +177,9 @@ static void fill_source(tc_source *s, arena *a, const char *path, const tc_reply
     s->helper_peak_bytes = reply->peak_bytes;
 }
 
-static tc_status attach_source(tc_mesh *mesh, const char *path, const tc_reply *reply, double ms, tc_error *err)
+/* *memory gets the one block that *out points into. */
+static tc_status make_source(tc_source **out, void **memory, const char *path, const tc_reply *reply, double ms,
+                             tc_error *err)
 {
     arena measure = {NULL, 0};
     tc_source *source = tc_calloc(1, sizeof *source);
@@ -174,23 +192,49 @@ static tc_status attach_source(tc_mesh *mesh, const char *path, const tc_reply *
         return tc_fail_memory(err, "the description of a file", measure.used, 1);
     }
     fill_source(source, &block, path, reply, ms);
-    mesh->source = source;
-    mesh->source_memory = block.base;
-    mesh->report.source_cells = count_of(reply->json, "solid_cells");
-    mesh->file = (tc_file_repairs){.degenerate = count_of(reply->json, "degenerate"),
-                                   .turned = count_of(reply->json, "turned"),
-                                   .unused_points = count_of(reply->json, "unused_points"),
-                                   .merged_points = count_of(reply->json, "merged_points")};
+    *out = source;
+    *memory = block.base;
     return TC_OK;
+}
+
+static uint64_t hash_of(const tc_reply *reply)
+{
+    const char *text = text_of(reply->json, "mesh_hash");
+    return text ? strtoull(text, NULL, 16) : 0;
 }
 
 /* ------------------------------------------------------------------------------------------ mesh */
 
-static tc_status make_mesh(tc_mesh **out, const tc_reply *reply, tc_error *err)
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+/* The values of a reply; *association is of them. NULL with TC_OK: the file has no field. */
+static tc_status find_scalar(const double **out, tc_association *association, const tc_reply *reply, size_t n_vertex,
+                             size_t n_tet, tc_error *err)
+{
+    const tc_array *scalar = tc_reply_array(reply, "scalar", TC_F64);
+    *out = NULL;
+    *association = TC_POINT_DATA;
+    if (!scalar)
+        return TC_OK;
+    const bool cell_data = json_integer_value(json_object_get(reply->json, "association")) == TC_CELL_DATA;
+    const size_t want = cell_data ? n_tet : n_vertex;
+    if (scalar->count != want)
+        return tc_fail(err, TC_E_WORKER, "tetcast-read gave %zu values for %zu places; is it of another version?",
+                       scalar->count, want);
+    *out = scalar->data;
+    *association = cell_data ? TC_CELL_DATA : TC_POINT_DATA;
+    return TC_OK;
+}
+
+static tc_status make_mesh(tc_mesh **out, const char *path, const tc_reply *reply, double start, tc_error *err)
 {
     const tc_array *vertex = tc_reply_array(reply, "vertex", TC_F64);
     const tc_array *tet = tc_reply_array(reply, "tet", TC_I32);
-    const tc_array *scalar = tc_reply_array(reply, "scalar", TC_F64);
     if (!vertex || !tet || vertex->count % 3 || tet->count % 4)
         return tc_fail(err, TC_E_WORKER,
                        "tetcast-read gave an answer without points or tets; is it of another version?");
@@ -198,24 +242,98 @@ static tc_status make_mesh(tc_mesh **out, const tc_reply *reply, tc_error *err)
                              .vertex = vertex->data,
                              .n_tet = tet->count / 4,
                              .tet = tet->data,
-                             .association = TC_POINT_DATA};
-    if (scalar) {
-        arrays.association = (tc_association)json_integer_value(json_object_get(reply->json, "association"));
-        const size_t want = arrays.association == TC_CELL_DATA ? arrays.n_tet : arrays.n_vertex;
-        if (scalar->count != want)
-            return tc_fail(err, TC_E_WORKER, "tetcast-read gave %zu values for %zu places; is it of another version?",
-                           scalar->count, want);
-        arrays.scalar = scalar->data;
-        arrays.field_name = text_of(reply->json, "field");
+                             .field_name = text_of(reply->json, "field")};
+    tc_mesh *mesh = NULL;
+    tc_status status =
+        find_scalar(&arrays.scalar, &arrays.association, reply, arrays.n_vertex, arrays.n_tet, err);
+    if (!status)
+        status = tc_mesh_create(&mesh, &arrays, err);
+    if (!status)
+        status = make_source(&mesh->source, &mesh->source_memory, path, reply, now_ms() - start, err);
+    if (status) {
+        tc_mesh_destroy(&mesh);
+        return status;
     }
-    return tc_mesh_create(out, &arrays, err);
+    mesh->source_hash = hash_of(reply);
+    mesh->report.source_cells = count_of(reply->json, "solid_cells");
+    mesh->file = (tc_file_repairs){.degenerate = count_of(reply->json, "degenerate"),
+                                   .turned = count_of(reply->json, "turned"),
+                                   .unused_points = count_of(reply->json, "unused_points"),
+                                   .merged_points = count_of(reply->json, "merged_points")};
+    *out = mesh;
+    return TC_OK;
 }
 
-static double now_ms(void)
+/* Puts the values of a reply onto the mesh they belong to; on failure it is as it was. */
+static tc_status take_values(tc_mesh *mesh, const char *path, const tc_reply *reply, double start, tc_error *err)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+    const double *scalar;
+    tc_association association;
+    double *none = NULL;
+    tc_source *source = NULL;
+    void *memory = NULL;
+    const char *label = text_of(reply->json, "field");
+    char *name = label ? strdup(label) : NULL;
+    tc_status status = find_scalar(&scalar, &association, reply, mesh->n_vertex_source, mesh->n_tet_source, err);
+    if (!status && label && !name)
+        status = tc_fail_memory(err, "the name of an array", strlen(label), 1);
+    if (!status && !scalar) {
+        none = tc_calloc(mesh->n_vertex_source, sizeof *none);
+        scalar = none;
+        if (!none)
+            status = tc_fail_memory(err, "new values", mesh->n_vertex_source, sizeof *none);
+    }
+    if (!status)
+        status = make_source(&source, &memory, path, reply, now_ms() - start, err);
+    if (!status)
+        status = tc_mesh_set_scalar(mesh, scalar, association, err);
+    free(none);
+    if (status) {
+        free(name);
+        free(source);
+        free(memory);
+        return status;
+    }
+    free(mesh->field_name);
+    free(mesh->source);
+    free(mesh->source_memory);
+    mesh->field_name = name;
+    mesh->source = source;
+    mesh->source_memory = memory;
+    mesh->source->ms_read = now_ms() - start;
+    return TC_OK;
+}
+
+/* ------------------------------------------------------------------------------------------ calls */
+
+static tc_status check_options(const tc_read_options *options, tc_error *err)
+{
+    if (options->refine < 0 || options->refine > 6)
+        return tc_fail(err, TC_E_ARG, "refine %d is not in 0 to 6 (each level makes 8 times as many tets)",
+                       options->refine);
+    if (options->has_time && !isfinite(options->time))
+        return tc_fail(err, TC_E_ARG, "the time to read is not a finite number");
+    return TC_OK;
+}
+
+/* One request to *worker, which is started where it is NULL, and stopped where it cannot go on. */
+static tc_status ask(tc_reply *reply, tc_worker **worker, const char *path, const tc_read_options *options, bool keep,
+                     uint64_t known, const tc_log *log, tc_error *err)
+{
+    json_t *request = NULL;
+    const tc_worker_limits limits = {.idle_s = options->idle_limit_s > 0 ? options->idle_limit_s : 60,
+                                     .memory_bytes = TC_WORKER_MACHINE};
+    tc_status status = make_request(&request, path, options, keep, known, err);
+    if (!status && !*worker)
+        status = tc_worker_start(worker, "tetcast-read", &limits, err);
+    if (!status)
+        status = tc_worker_call(reply, *worker, request, NULL, 0, log, err);
+    if (status == TC_E_WORKER && *worker) {
+        tc_fail_prefix(err, status, "%s could not be read, it is probably damaged: ", path);
+        tc_worker_stop(worker);
+    }
+    json_decref(request);
+    return status;
 }
 
 tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_options *options, const tc_log *log,
@@ -227,37 +345,72 @@ tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_options *o
     *out = NULL;
     if (!options)
         options = &defaults;
-    if (options->refine < 0 || options->refine > 6)
-        return tc_fail(err, TC_E_ARG, "refine %d is not in 0 to 6 (each level makes 8 times as many tets)",
-                       options->refine);
-    if (options->has_time && !isfinite(options->time))
-        return tc_fail(err, TC_E_ARG, "the time to read is not a finite number");
-
-    json_t *request = NULL;
     tc_worker *worker = NULL;
     tc_reply reply = {0};
     tc_mesh *mesh = NULL;
     const double start = now_ms();
-    const tc_worker_limits limits = {.idle_s = options->idle_limit_s > 0 ? options->idle_limit_s : 60,
-                                     .memory_bytes = TC_WORKER_MACHINE};
-    tc_status status = make_request(&request, path, options, err);
+    tc_status status = check_options(options, err);
     if (!status)
-        status = tc_worker_start(&worker, "tetcast-read", &limits, err);
+        status = ask(&reply, &worker, path, options, options->keep_reader, 0, log, err);
     if (!status)
-        status = tc_worker_call(&reply, worker, request, NULL, 0, log, err);
-    if (status == TC_E_WORKER && worker)
-        tc_fail_prefix(err, status, "%s could not be read, it is probably damaged: ", path);
-    if (!status)
-        status = make_mesh(&mesh, &reply, err);
-    if (!status)
-        status = attach_source(mesh, path, &reply, now_ms() - start, err);
-    tc_worker_stop(&worker);
+        status = make_mesh(&mesh, path, &reply, start, err);
     tc_reply_finish(&reply);
-    json_decref(request);
-    if (status) {
-        tc_mesh_destroy(&mesh);
-        return status;
-    }
+    if (!status && options->keep_reader)
+        mesh->reader = worker;
+    else
+        tc_worker_stop(&worker);
     *out = mesh;
-    return TC_OK;
+    return status;
+}
+
+/* The mesh of a reply whose points or cells are not those of `old`, with the reader that it had. */
+static tc_status take_moved(tc_mesh **moved, tc_mesh *old, const char *path, const tc_reply *reply, double start,
+                            tc_error *err)
+{
+    tc_status status = moved ? make_mesh(moved, path, reply, start, err) : TC_OK;
+    if (status)
+        return status;
+    if (moved) {
+        (*moved)->reader = old->reader;
+        old->reader = NULL;
+    }
+    return tc_fail(err, TC_E_MOVED,
+                   "%s: the points or cells of step %d are not those of the mesh that is to take its values; read and "
+                   "prepare that step as a mesh of its own",
+                   path, (int)json_integer_value(json_object_get(reply->json, "step")));
+}
+
+tc_status tc_mesh_read_values(tc_mesh **moved, tc_mesh *mesh, const char *path, const tc_read_options *options,
+                              const tc_log *log, tc_error *err)
+{
+    static const tc_read_options defaults = {0};
+    if (moved)
+        *moved = NULL;
+    if (!mesh || !path)
+        return tc_fail(err, TC_E_ARG, "tc_mesh_read_values: mesh or path is NULL");
+    if (!mesh->source)
+        return tc_fail(err, TC_E_ARG,
+                       "the mesh that is to take the values of %s was not read from a file; give its values to "
+                       "tc_mesh_set_scalar",
+                       path);
+    if (!options)
+        options = &defaults;
+    tc_reply reply = {0};
+    const double start = now_ms();
+    tc_status status = check_options(options, err);
+    if (!status)
+        status = ask(&reply, &mesh->reader, path, options, true, mesh->source_hash, log, err);
+    if (!status && !json_is_true(json_object_get(reply.json, "same_mesh")))
+        status = take_moved(moved, mesh, path, &reply, start, err);
+    else if (!status)
+        status = take_values(mesh, path, &reply, start, err);
+    tc_reply_finish(&reply);
+    if (status != TC_E_MESH)
+        return status;
+    /* Points at one place were merged for equal values, which differ in this step: it needs a mesh of its own. */
+    status = ask(&reply, &mesh->reader, path, options, true, 0, log, err);
+    if (!status)
+        status = take_moved(moved, mesh, path, &reply, start, err);
+    tc_reply_finish(&reply);
+    return status;
 }

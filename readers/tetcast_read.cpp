@@ -4,11 +4,13 @@
 #include "core/serve.h"
 #include "fields.h"
 #include "gather.h"
+#include "kept.h"
 #include "load.h"
-#include "split_mesh.h"
 #include "vtk_talk.h"
 
+#include <cinttypes>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 namespace tetcast
@@ -33,6 +35,9 @@ ReadRequest parse_request(json_t *request)
     out.step = (int)json_integer_value(step);
     out.refine = (int)json_integer_value(json_object_get(request, "refine"));
     out.all_ranges = json_is_true(json_object_get(request, "all_ranges"));
+    out.keep = json_is_true(json_object_get(request, "keep"));
+    const char *mesh = json_string_value(json_object_get(request, "mesh"));
+    out.mesh = mesh ? mesh : "";
     if (out.path.empty())
         throw Refusal("no file was named");
     return out;
@@ -120,7 +125,40 @@ void note_split(std::vector<std::string> &notes, const Gathered &data, const Tet
         notes.push_back(counted(tets.refused_cells, "polyhedron", "polyhedra") + " could not be filled and left out");
 }
 
-void read(tc_serve *serve, json_t *json)
+// The tets of data: those of the last request where its points and cells were the same.
+const SplitFile &split_file(Kept &kept, SplitFile &fresh, const ReadRequest &request, const Gathered &data,
+                            VtkTalk &talk)
+{
+    uint64_t input = 0;
+    const bool hashed = request.keep && hash_input(input, data);
+    if (hashed && kept.there && kept.input == input && kept.refine == request.refine)
+        return kept.split;
+    kept = Kept();
+    fresh.refined = split_mesh(fresh.tets, data, request.refine, fresh.notes, talk);
+    note_split(fresh.notes, data, fresh.tets, fresh.refined);
+    if (fresh.tets.tet.empty())
+        throw Refusal(request.path + ": none of its " + std::to_string(data.n_solid) +
+                      " 3-D cells has a volume: they are collapsed, or polyhedra that are not closed");
+    fresh.used = compact_points(fresh.tets);
+    fresh.lost = count_lost_points(fresh.tets, data, fresh.used);
+    hash_split(fresh, fresh.vertices(), data.n_solid);
+    if (!hashed)
+        return fresh;
+    kept.there = true;
+    kept.input = input;
+    kept.refine = request.refine;
+    kept.split = std::move(fresh);
+    return kept.split;
+}
+
+std::string hex(uint64_t hash)
+{
+    char text[17];
+    snprintf(text, sizeof text, "%016" PRIx64, hash);
+    return text;
+}
+
+void read(tc_serve *serve, Kept &kept, json_t *json)
 {
     const ReadRequest request = parse_request(json);
     VtkTalk talk(serve);
@@ -137,24 +175,19 @@ void read(tc_serve *serve, json_t *json)
         return request.all_ranges || (o.name == chosen.name && o.association == chosen.association);
     });
 
-    Tets tets;
-    const int refined = split_mesh(tets, data, request.refine, loaded.notes, talk);
-    note_split(loaded.notes, data, tets, refined);
+    SplitFile fresh;
+    const SplitFile &split = split_file(kept, fresh, request, data, talk);
+    const Tets &tets = split.tets;
+    const std::vector<int32_t> &used = split.used;
+    loaded.notes.insert(loaded.notes.end(), split.notes.begin(), split.notes.end());
     for (const Offered &o : loaded.offered)
         if (!chosen.none && o.name == chosen.name && o.association == chosen.association && o.blocks_without > 0)
             loaded.notes.push_back("array \"" + o.name + "\" is missing in " + std::to_string(o.blocks_without) +
                                    " of " + std::to_string(data.leaf.size()) + " blocks; there it is NaN");
-    if (tets.tet.empty())
-        throw Refusal(request.path + ": none of its " + std::to_string(data.n_solid) +
-                      " 3-D cells has a volume: they are collapsed, or polyhedra that are not closed");
-    const std::vector<int32_t> used = compact_points(tets);
-    const LostPoints lost = count_lost_points(tets, data, used);
 
     talk.progress("field", -1);
-    std::vector<double> vertex(3 * used.size());
-    for (size_t i = 0; i < used.size(); i++)
-        for (size_t k = 0; k < 3; k++)
-            vertex[3 * i + k] = tets.at(used[i])[k];
+    const bool same = request.mesh == hex(split.hash);
+    const std::vector<double> vertex = same ? std::vector<double>() : split.vertices();
     std::vector<double> scalar;
     if (!chosen.none && chosen.association == TC_POINT_DATA) {
         scalar.resize(used.size());
@@ -165,6 +198,8 @@ void read(tc_serve *serve, json_t *json)
     }
 
     std::unique_ptr<json_t, void (*)(json_t *)> result(json_object(), [](json_t *j) { json_decref(j); });
+    json_object_set_new(result.get(), "mesh_hash", text(hex(split.hash)));
+    json_object_set_new(result.get(), "same_mesh", json_boolean(same));
     json_object_set_new(result.get(), "format", text(loaded.format));
     json_object_set_new(result.get(), "reader", text(loaded.reader));
     if (!chosen.none) {
@@ -178,10 +213,10 @@ void read(tc_serve *serve, json_t *json)
                         json_integer((json_int_t)(data.n_cell - data.n_solid + tets.refused_cells + tets.open_cells)));
     json_object_set_new(result.get(), "degenerate", json_integer((json_int_t)tets.empty_cells));
     json_object_set_new(result.get(), "turned", json_integer((json_int_t)tets.turned_cells));
-    json_object_set_new(result.get(), "unused_points", json_integer((json_int_t)lost.unused));
-    json_object_set_new(result.get(), "merged_points", json_integer((json_int_t)lost.merged));
+    json_object_set_new(result.get(), "unused_points", json_integer((json_int_t)split.lost.unused));
+    json_object_set_new(result.get(), "merged_points", json_integer((json_int_t)split.lost.merged));
     json_object_set_new(result.get(), "linearised", json_boolean(data.n_curved > 0));
-    json_object_set_new(result.get(), "refine", json_integer(refined));
+    json_object_set_new(result.get(), "refine", json_integer(split.refined));
     json_object_set_new(result.get(), "step", json_integer(loaded.step));
     json_t *times = json_array();
     for (double t : loaded.times)
@@ -191,14 +226,17 @@ void read(tc_serve *serve, json_t *json)
     json_object_set_new(result.get(), "cell_types", describe_cells(data));
     json_object_set_new(result.get(), "notes", describe_texts(loaded.notes));
 
-    const tc_array array[] = {{"vertex", TC_F64, vertex.size(), vertex.data()},
-                              {"tet", TC_I32, tets.tet.size(), tets.tet.data()},
-                              {"cell", TC_I64, tets.cell.size(), tets.cell.data()},
-                              {"scalar", TC_F64, scalar.size(), scalar.data()}};
-    tc_serve_result(serve, result.get(), array, chosen.none ? 3 : 4);
+    std::vector<tc_array> array;
+    if (!same)
+        array = {{"vertex", TC_F64, vertex.size(), vertex.data()},
+                 {"tet", TC_I32, tets.tet.size(), tets.tet.data()},
+                 {"cell", TC_I64, tets.cell.size(), tets.cell.data()}};
+    if (!chosen.none)
+        array.push_back({"scalar", TC_F64, scalar.size(), scalar.data()});
+    tc_serve_result(serve, result.get(), array.data(), array.size());
 }
 
-void handle(void *, tc_serve *serve, json_t *request, const tc_array *, size_t)
+void handle(void *context, tc_serve *serve, json_t *request, const tc_array *, size_t)
 {
     const char *what = json_string_value(json_object_get(request, "do"));
     const char *path = json_string_value(json_object_get(request, "path"));
@@ -207,7 +245,7 @@ void handle(void *, tc_serve *serve, json_t *request, const tc_array *, size_t)
         if (!what || std::string(what) != "read")
             tc_serve_error(serve, "tetcast-read only knows the request \"read\"");
         else
-            read(serve, request);
+            read(serve, *static_cast<Kept *>(context), request);
     } catch (const Refusal &refusal) {
         tc_serve_error(serve, refusal.what());
     } catch (const std::bad_alloc &) {
@@ -224,5 +262,6 @@ void handle(void *, tc_serve *serve, json_t *request, const tc_array *, size_t)
 
 int main(int argc, char **argv)
 {
-    return tc_serve_main(argc, argv, "tetcast-read", tetcast::handle, nullptr);
+    tetcast::Kept kept;
+    return tc_serve_main(argc, argv, "tetcast-read", tetcast::handle, &kept);
 }

@@ -40,7 +40,8 @@ typedef enum tc_status {
     TC_E_LOST = -7,   /* a ray was lost: an error of ours, the picture is not to be trusted */
     TC_E_EMPTY = -8,  /* nothing would be seen */
     TC_E_CANCEL = -9, /* the caller asked to stop */
-    TC_E_ACCURACY = -10 /* no setting reaches the error that was asked for */
+    TC_E_ACCURACY = -10, /* no setting reaches the error that was asked for */
+    TC_E_MOVED = -11 /* the mesh in the file is not the one that was to take its values */
 } tc_status;
 
 typedef struct tc_error {
@@ -80,7 +81,10 @@ typedef struct tc_mesh_arrays {
 TC_API tc_status tc_mesh_create(tc_mesh **out, const tc_mesh_arrays *arrays, tc_error *err);
 TC_API void tc_mesh_destroy(tc_mesh **mesh);
 
-/* New values on the same (prepared) mesh; scalar has the length of the arrays that made the mesh, in their order. */
+/* New values on the same mesh, prepared or not; scalar has the length of the arrays that made the mesh, in their order, and
+ * may be of the other association than before. A renderer that holds the mesh packs and uploads the values alone.
+ * Errors: TC_E_ARG; TC_E_MESH (points at one place that were merged since their values were equal now have different ones:
+ * make the mesh anew); TC_E_MEMORY. On failure the mesh is as it was. Cost: O(vertices), or O(tets) for cell data. */
 TC_API tc_status tc_mesh_set_scalar(tc_mesh *mesh, const double *scalar, tc_association association, tc_error *err);
 
 typedef enum tc_reentry { TC_REENTRY_AUTO = 0, TC_REENTRY_CONVEXIFY = 1, TC_REENTRY_PEEL = 2 } tc_reentry;
@@ -144,6 +148,7 @@ typedef struct tc_read_options {
     int refine;                 /* splits each curved (quadratic) simplex 1:8 this many times first; 0 none */
     double idle_limit_s;        /* the reader is stopped after this long without progress; 0: 60 s */
     bool all_ranges;            /* read every array for its range, not only the one taken; always so without field */
+    bool keep_reader;           /* tetcast-read goes on until the mesh is destroyed, for tc_mesh_read_values */
 } tc_read_options;
 
 /* One array a file offers. */
@@ -186,6 +191,16 @@ typedef struct tc_source {
  * Errors: TC_E_FILE (unreadable, no 3-D cells, missing array: lists those there are), TC_E_WORKER. */
 TC_API tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_options *options, const tc_log *log,
                               tc_error *err);
+/* Another step or field of a mesh that tc_mesh_read made, prepared or not, from the same file or from another with the same
+ * points and cells: only values are taken, so that all that was prepared stays, and the mesh's source and report are of
+ * this step. Points and cells are compared bit by bit, through a hash of 64 bits, which a mesh of tc_mesh_load lacks.
+ *   moved  NULL, or gets on TC_E_MOVED, and only then, the mesh of that step as tc_mesh_read would make it, not prepared
+ * What tc_mesh_source gave for the mesh before is no longer valid. tetcast-read goes on until the mesh is destroyed.
+ * Errors: as tc_mesh_read; TC_E_ARG (the mesh was not read from a file); TC_E_MOVED (points or cells are others, or points
+ * at one place that were merged have different values now). On failure mesh is as it was. Cost: reading the file,
+ * comparing 3 doubles a point and the cells' point numbers, O(vertices) or O(tets); cells are not split again. */
+TC_API tc_status tc_mesh_read_values(tc_mesh **moved, tc_mesh *mesh, const char *path, const tc_read_options *options,
+                                     const tc_log *log, tc_error *err);
 /* NULL for a mesh made from arrays. */
 TC_API const tc_source *tc_mesh_source(const tc_mesh *mesh);
 
@@ -407,6 +422,7 @@ typedef struct tc_render_stats {
     int64_t refined;     /* adaptive sampling: pixels of 16 rays */
     double ms_pack, ms_upload, ms_table, ms_compile, ms_first_hit, ms_march, ms_frame, ms_readback;
     double gpu_bytes_mesh, gpu_bytes_other, gpu_bytes_table, gpu_bytes_state; /* cells + vertices; boundary; tables; state */
+    double gpu_bytes_sent; /* of the mesh and its values, for this frame: 0 where the renderer held both */
     int steps_per_pass, z_update_every, passes, z_updates, layers; /* layers: entries peeled, 1 when convex */
     int64_t rays, rays_lost, steps, steps_max;
     int64_t audit_broken;   /* visited cells in which other than two faces held the ray */

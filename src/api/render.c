@@ -273,6 +273,7 @@ static void clear_stats(tc_render_stats *stats)
     stats->ms_pack = stats->ms_upload = stats->ms_table = stats->ms_compile = stats->ms_first_hit = stats->ms_march =
         stats->ms_frame = stats->ms_readback = -1;
     stats->gpu_bytes_mesh = stats->gpu_bytes_other = stats->gpu_bytes_table = stats->gpu_bytes_state = -1;
+    stats->gpu_bytes_sent = -1;
     stats->steps_per_pass = stats->z_update_every = stats->passes = stats->z_updates = stats->layers = -1;
     stats->state_bits = -1;
     stats->refined = -1;

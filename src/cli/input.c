@@ -98,6 +98,7 @@ tc_read_options tc_input_read_options(const tc_input_options *options)
         .step = options->step,
         .refine = options->refine,
         .idle_limit_s = options->idle_limit,
+        .keep_reader = options->keep_reader,
     };
 }
 
@@ -122,6 +123,25 @@ int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *option
     tc_status status = tc_mesh_read(out, input, &read, &talk->log, &err);
     *ms_read = 1e3 * (tc_talk_clock_s() - start);
     return status ? tc_talk_status(talk, status, &err) : -1;
+}
+
+int tc_input_step(tc_mesh **mesh, bool *moved, double *ms_read, const tc_input_options *options, const char *input,
+                  tc_talk *talk)
+{
+    tc_error err = {0};
+    tc_mesh *other = NULL;
+    tc_read_options read = tc_input_read_options(options);
+    double start = tc_talk_clock_s();
+    tc_status status = tc_mesh_read_values(&other, *mesh, input, &read, &talk->log, &err);
+    *ms_read = 1e3 * (tc_talk_clock_s() - start);
+    *moved = status == TC_E_MOVED;
+    if (status && !*moved)
+        return tc_talk_status(talk, status, &err);
+    if (*moved) {
+        tc_mesh_destroy(mesh);
+        *mesh = other;
+    }
+    return -1;
 }
 
 int tc_input_prepare(tc_mesh *mesh, const tc_input_options *options, tc_talk *talk)

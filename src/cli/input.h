@@ -10,6 +10,7 @@ typedef struct tc_input_options {
     double time;
     int step, refine;
     double idle_limit; /* seconds; 0: the default */
+    bool keep_reader;  /* other steps will follow: tc_input_step */
     int reentry; /* tc_reentry */
     int threads;
     uint64_t seed;
@@ -34,6 +35,8 @@ typedef struct tc_input_options {
 #define TC_INPUT_STEP_ROWS(type, member)                                                                               \
     {"--step", 0, "N", "the step by number, from 0; negative counts from the end", TC_OPTION_INT,                      \
      .at = TC_INPUT_AT(type, member, step), .has = TC_INPUT_AT(type, member, has_step) + 1},                           \
+    TC_INPUT_READER_ROWS(type, member)
+#define TC_INPUT_READER_ROWS(type, member)                                                                             \
     {"--refine", 0, "N", "split curved (quadratic) cells N times before they become linear; default 0", TC_OPTION_INT,         \
      .at = TC_INPUT_AT(type, member, refine), .low = 0, .high = 6},                                                    \
     {"--idle-limit", 0, "S", "stop the reader after S seconds without progress; default 60", TC_OPTION_REAL,           \
@@ -59,6 +62,10 @@ int tc_input_check(const tc_input_options *options, tc_talk *talk);
 /* Reads or makes the mesh, not yet prepared. *ms_read: wall time of reading, NAN for a synthetic one.
  * -1 to go on, else the exit code of an error that was printed. */
 int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *options, const char *input, tc_talk *talk);
+/* Reads the step of options onto a mesh of tc_input_load, which keeps what was prepared where its points and cells are the
+ * same. *moved: they are not, and *mesh is another one, not yet prepared. The same codes. */
+int tc_input_step(tc_mesh **mesh, bool *moved, double *ms_read, const tc_input_options *options, const char *input,
+                  tc_talk *talk);
 /* What tc_mesh_read and tc_mesh_prepare are asked for. */
 tc_read_options tc_input_read_options(const tc_input_options *options);
 tc_prepare_options tc_input_prepare_options(const tc_input_options *options);

@@ -102,6 +102,22 @@ static bool tc_time_parse(void *field, const char *text, char *why)
     return true;
 }
 
+/* --step N or --step FROM:TO; field is the whole tc_render_command. */
+static bool tc_step_parse(void *field, const char *text, char *why)
+{
+    tc_render_command *out = field;
+    if (!strchr(text, ':')) {
+        out->steps.there = false;
+        out->source.has_step = tc_parse_int(&out->source.step, text);
+        return out->source.has_step;
+    }
+    if (!tc_step_range_parse(&out->steps, text, why))
+        return false;
+    out->source.has_step = true;
+    out->source.step = out->steps.has_from ? out->steps.from : 0;
+    return true;
+}
+
 static bool tc_background_parse(void *field, const char *text, char *why)
 {
     double value[4] = {0, 0, 0, 1};
@@ -159,11 +175,12 @@ static const tc_option tc_render_option[] = {
     {.help = "Data"},
     TC_INPUT_ARRAY_ROWS(tc_render_command, source),
     {"--time", 0, "T", "the step at or before this time; a number that ends in ms is --frame-time", TC_OPTION_CUSTOM, .at = 0, .parse = tc_time_parse},
-    TC_INPUT_STEP_ROWS(tc_render_command, source),
+    {"--step", 0, "N|FROM:TO[:STRIDE]", "the step by number, from 0; negative counts from the end; FROM:TO: a picture of each, both ends too, either may be left out", TC_OPTION_CUSTOM, .at = 0, .parse = tc_step_parse},
+    TC_INPUT_READER_ROWS(tc_render_command, source),
     TC_INPUT_GAP_ROW(tc_render_command, source),
     TC_INPUT_CACHE_ROWS(tc_render_command, source),
     {.help = "Picture"},
-    {"--output", 'o', "FILE", "png, exr, tif or jpg by extension; - for PNG on stdout; default INPUT's name + .png, here", TC_OPTION_TEXT, AT(output)},
+    {"--output", 'o', "FILE", "png, exr, tif or jpg by extension; - for PNG on stdout; default INPUT's name + .png, here; several steps: {step:04d} or {time:.3f} in it, else _0012 before the extension", TC_OPTION_TEXT, AT(output)},
     {"--size", 0, "WxH", "pixels; default 512x512", TC_OPTION_CUSTOM, AT(size), .parse = tc_size_parse},
     {"--background", 0, "R,G,B[,A]|transparent", "0 to 1 each; default transparent", TC_OPTION_CUSTOM, AT(background), .parse = tc_background_parse},
     {.help = "Camera (default: the whole mesh in view from +z)"},
@@ -260,8 +277,7 @@ static bool tc_equal3(const double *a, const double *b)
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Do both names lead to one file, there or to be written? */
-static bool tc_same_file(const char *a, const char *b)
+bool tc_same_file(const char *a, const char *b)
 {
     struct stat x, y;
     if (!strcmp(a, "-") || !strcmp(b, "-"))
@@ -295,6 +311,19 @@ static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
                 return TC_EXIT_USAGE;
             }
         }
+    for (int i = 0; i < N && out->steps.there; i++) {
+        char name[8192], why[256];
+        if (!file[i].path || !file[i].picture)
+            continue;
+        if (!strcmp(file[i].path, "-")) {
+            tc_talk_error(talk, "%s - takes one picture, --step FROM:TO makes several: give a name", file[i].option);
+            return TC_EXIT_USAGE;
+        }
+        if (!tc_step_name(name, sizeof name, file[i].path, 0, 0, why, sizeof why)) {
+            tc_talk_error(talk, "%s %s: %s", file[i].option, file[i].path, why);
+            return TC_EXIT_USAGE;
+        }
+    }
     for (int i = 0; i < N; i++)
         if (file[i].path && tc_same_file(out->input, file[i].path)) {
             tc_talk_error(talk, "%s is the input and would be written over: give %s another name", out->input,
@@ -305,7 +334,7 @@ static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
     for (int i = 0; i < N && code < 0; i++) {
         if (file[i].path && file[i].picture)
             code = tc_output_kind_check(file[i].path, talk);
-        if (code < 0 && file[i].path)
+        if (code < 0 && file[i].path && !(out->steps.there && file[i].picture)) /* names of steps: render_sequence.c */
             code = tc_output_check(file[i].path, talk);
     }
     return code;
@@ -393,8 +422,14 @@ int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_comma
     }
     if (!out->output) {
         char stem[480];
+        size_t n = 0;
         tc_input_stem(stem, sizeof stem, out->input);
-        snprintf(out->default_output, sizeof out->default_output, "%s.png", stem);
+        for (const char *c = stem; *c && n + 8 < sizeof out->default_output; c++) {
+            out->default_output[n++] = *c;
+            if (out->steps.there && (*c == '{' || *c == '}')) /* no placeholder */
+                out->default_output[n++] = *c;
+        }
+        snprintf(out->default_output + n, sizeof out->default_output - n, ".png");
         out->output = out->default_output;
     }
     return tc_render_check(out, talk);

@@ -3,6 +3,7 @@
 #define TC_CLI_RENDER_OPTIONS_H
 
 #include "cli/input.h"
+#include "cli/step_names.h"
 
 typedef struct tc_size {
     int width, height;
@@ -22,6 +23,7 @@ typedef struct tc_render_command {
     const char *input, *output; /* output NULL: default_output */
     char default_output[512];
     tc_input_options source;
+    tc_step_range steps; /* --step FROM:TO; source has the first of them then, if it was given */
     tc_size size;
     tc_background background;
 
@@ -69,6 +71,9 @@ bool tc_choice_asked(const tc_render_command *options);
 
 /* Defaults, parsing, checks that need no mesh. -1 to go on, else the exit code. */
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv);
+
+/* Do both names lead to one file, there or to be written? */
+bool tc_same_file(const char *a, const char *b);
 
 /* --size WxH: a custom option whose field is a tc_size. */
 bool tc_size_parse(void *field, const char *text, char *why);

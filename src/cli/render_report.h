@@ -35,11 +35,19 @@ typedef struct tc_render_run {
     bool verified, counted;
     tc_image *errors; /* of tc_verify_image; NULL without --error-image */
     tc_error lost; /* rays that the stepper "planes" lost: said at the end; code TC_OK where there are none */
+    bool measured; /* there are numbers for --stats */
     bool broken;   /* the audit found cells in which other than two faces held the ray: said at the end, too */
 } tc_render_run;
 
 /* New reference, or NULL when memory ran out. */
 json_t *tc_render_stats_json(const tc_render_run *run);
+
+/* Of several steps: what is common to them, with the mesh of the first, whose run this is. */
+json_t *tc_render_shared_json(const tc_render_run *run);
+/* One of them; time NAN: none. set_up: its mesh was set up, else values were put onto the one before. */
+json_t *tc_render_step_json(const tc_render_run *run, int step, double time, bool set_up);
+/* Peak memory so far. */
+void tc_render_memory_json(json_t *out);
 
 /* Texts for the image file: command, camera, transfer function, version, field, notes, verify. */
 #define TC_META_MAX 12

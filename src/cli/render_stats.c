@@ -62,6 +62,7 @@ static json_t *tc_mesh_json(const tc_render_run *run)
     tc_json_bytes(mesh, "gpu_bytes_other", stats->gpu_bytes_other);
     tc_json_bytes(mesh, "gpu_bytes_table", stats->gpu_bytes_table);
     tc_json_bytes(mesh, "gpu_bytes_state", stats->gpu_bytes_state);
+    tc_json_bytes(mesh, "gpu_bytes_sent", stats->gpu_bytes_sent);
     return mesh;
 }
 
@@ -163,11 +164,9 @@ static void tc_json_part(json_t *object, const char *key, json_t *part)
         json_decref(part);
 }
 
-json_t *tc_render_stats_json(const tc_render_run *run)
+json_t *tc_render_shared_json(const tc_render_run *run)
 {
-    json_t *out = json_object(), *image = json_object(), *memory = json_object();
-    size_t self = 0, helper = 0;
-    tc_memory_peak(&self, &helper);
+    json_t *out = json_object(), *image = json_object();
     tc_json_text(out, "tetcast", tc_version());
     tc_json_text(out, "input", run->options->input);
     tc_json_text(out, "field", tc_run_field(run));
@@ -177,20 +176,55 @@ json_t *tc_render_stats_json(const tc_render_run *run)
     tc_json_part(out, "image", image);
     tc_json_part(out, "gl", tc_gl_json(run));
     tc_json_part(out, "mesh", tc_mesh_json(run));
+    json_object_set_new(out, "effects", json_pack("[s]", "density-emitter"));
+    return out;
+}
+
+/* What belongs to one picture. */
+static void tc_picture_json(json_t *out, const tc_render_run *run)
+{
     tc_json_part(out, "time_ms", tc_time_json(run));
     if (run->seen.cache[0])
         tc_json_part(out, "cache", tc_input_cache_json(&run->seen));
     tc_json_count(out, "frames", (uint64_t)run->frames);
     tc_json_part(out, "march", tc_march_json(run));
-    json_object_set_new(out, "effects", json_pack("[s]", "density-emitter"));
     if (run->chosen)
         tc_json_part(out, "choice", tc_choice_json(run));
     if (run->verified)
         tc_json_part(out, "verify", tc_verify_json(&run->verify, run->options->seed));
+}
+
+void tc_render_memory_json(json_t *out)
+{
+    json_t *memory = json_object();
+    size_t self = 0, helper = 0;
+    tc_memory_peak(&self, &helper);
     if (self > 0)
         tc_json_count(memory, "peak_bytes", self);
     if (helper > 0)
         tc_json_count(memory, "helper_peak_bytes", helper);
     tc_json_part(out, "memory", memory);
+}
+
+json_t *tc_render_stats_json(const tc_render_run *run)
+{
+    json_t *out = tc_render_shared_json(run);
+    tc_picture_json(out, run);
+    tc_render_memory_json(out);
+    return out;
+}
+
+json_t *tc_render_step_json(const tc_render_run *run, int step, double time, bool set_up)
+{
+    json_t *out = json_object();
+    json_object_set_new(out, "step", json_integer(step));
+    tc_json_real(out, "time", time);
+    tc_json_text(out, "output", run->options->output);
+    tc_json_text(out, "set_up", set_up ? "mesh" : "values");
+    json_object_set_new(out, "scalar_range", tc_json_reals(run->report.scalar_range, 2));
+    tc_json_bytes(out, "gpu_bytes_sent", run->first.gpu_bytes_sent);
+    if (set_up)
+        tc_json_part(out, "mesh", tc_mesh_json(run));
+    tc_picture_json(out, run);
     return out;
 }

@@ -38,6 +38,8 @@ static void tc_message_print(tc_talk *talk, const char *kind, const char *colour
         else
             fprintf(stderr, "%s: ", kind);
     }
+    if (*talk->about)
+        fprintf(stderr, "%s: ", talk->about);
     vfprintf(stderr, format, list);
     fputc('\n', stderr);
 }
@@ -97,9 +99,10 @@ static void tc_library_progress(void *user, const char *what, double fraction)
     talk->line_at_s = now;
     talk->line_open = true;
     if (fraction < 0)
-        fprintf(stderr, "\r\033[K%.60s …", what);
+        fprintf(stderr, "\r\033[K%s%s%.60s …", talk->about, *talk->about ? ": " : "", what);
     else
-        fprintf(stderr, "\r\033[K%.60s %3.0f %%", what, 100 * (fraction < 1 ? fraction : 1));
+        fprintf(stderr, "\r\033[K%s%s%.60s %3.0f %%", talk->about, *talk->about ? ": " : "", what,
+                100 * (fraction < 1 ? fraction : 1));
     fflush(stderr);
 }
 

@@ -21,6 +21,7 @@ typedef struct tc_talk {
     bool line_open;   /* a progress line is on the screen */
     double line_at_s; /* when it was last drawn */
     double start_s;   /* when the program began */
+    char about[24];   /* stands before each message: "step 3"; "": nothing does */
     tc_log log;       /* to hand to the library; its user is this struct */
 } tc_talk;
 

@@ -2,6 +2,7 @@
 #include "mesh/mesh.h"
 
 #include "core/memory.h"
+#include "core/worker.h"
 #include "mesh/repair.h"
 
 #include <math.h>
@@ -93,6 +94,7 @@ void tc_mesh_destroy(tc_mesh **mesh)
     free(m->field_name);
     free(m->source);
     free(m->source_memory);
+    tc_worker_stop(&m->reader);
     free(m);
     *mesh = NULL;
 }

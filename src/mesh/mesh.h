@@ -44,6 +44,8 @@ struct tc_mesh {
     tc_file_repairs file; /* zero for arrays */
     tc_source *source;    /* what the file held; NULL for arrays; a block of its own, free() */
     void *source_memory;  /* everything source points into: one block, free() */
+    uint64_t source_hash; /* of the arrays that a file's points and cells became, by tetcast-read; 0: from no file */
+    struct tc_worker *reader; /* tetcast-read, kept for tc_mesh_read_values; NULL: it is started when it is needed */
 };
 
 /* Sets the report's scalar_range, nonfinite_scalars and nonfinite_cells from the values; both ends are 0 when none is

@@ -1,0 +1,255 @@
+/* render_picture.c: from a prepared mesh to one picture in a file. */
+#include "cli/render_picture.h"
+#include "cli/render_choose.h"
+#include "cli/render_verify.h"
+#include "cli/render_view.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TC_VISIBLE (0.5 / 255) /* opacity below which an 8-bit picture stays empty */
+
+int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *talk)
+{
+    size_t n = (size_t)options->repeat;
+    *out = (tc_frames){.frame = calloc(n, 4 * sizeof(double))};
+    if (!out->frame) {
+        tc_talk_error(talk, "memory ran out");
+        return TC_EXIT_FAILED;
+    }
+    out->first_hit = out->frame + n;
+    out->march = out->first_hit + n;
+    out->readback = out->march + n;
+    return -1;
+}
+
+void tc_frames_finish(tc_frames *frames)
+{
+    tc_renderer_destroy(&frames->renderer);
+    free(frames->frame);
+    frames->frame = NULL;
+}
+
+static int tc_transfer_make(tc_render_run *run, const double range[2], tc_talk *talk)
+{
+    const tc_render_command *options = run->options;
+    tc_error err = {0};
+    tc_transfer_options make = {
+        .color_map = options->color_map,
+        .preset = options->preset,
+        .opacity = options->opacity,
+        .has_range = options->has_range,
+        .range = {options->range[0], options->range[1]},
+        .data_range = {range[0], range[1]},
+        .log = options->log,
+    };
+    if (!(range[0] <= range[1])) { /* nothing is finite: any function does, the picture is empty and says so */
+        make.data_range[0] = 0;
+        make.data_range[1] = 1;
+    }
+    tc_status status = tc_transfer_create(&run->tf, &make, &err);
+    return status ? tc_talk_status(talk, status, &err) : -1;
+}
+
+static void tc_render_set(tc_render_options *out, const tc_render_command *options)
+{
+    tc_render_defaults(out);
+    out->width = options->size.width;
+    out->height = options->size.height;
+    out->integrator = (tc_integrator)options->integrator;
+    if (options->table_size[0] > 0)
+        memcpy(out->table_size, options->table_size, sizeof out->table_size);
+    out->table_format = (tc_table_format)options->table_format;
+    out->unit_distance = options->unit_distance;
+    out->integral_order = options->integral_order;
+    out->integral_split = options->integral_split;
+    out->opacity_stop = options->opacity_stop;
+    out->samples = options->samples;
+    out->state_format = (tc_state_format)options->state_format;
+    out->has_nan_color = options->nan_color.there;
+    memcpy(out->nan_color, options->nan_color.rgba, sizeof out->nan_color);
+    out->stepper = (tc_stepper)options->stepper;
+    out->steps_per_pass = options->steps_per_pass;
+    out->z_update_every = options->z_update_every;
+    out->count = false;
+}
+
+/* One frame into run->image. -1, or an exit code; a lost ray is an error after its numbers are kept in *stats. Rays
+ * that the paper's arithmetic loses are what it is there to show: the run goes on to its end. */
+static int tc_frame(tc_render_run *run, tc_render_stats *stats, tc_renderer *renderer, bool count, tc_talk *talk)
+{
+    tc_error err = {0};
+    tc_render_options render = run->render;
+    render.count = count;
+    render.audit = count && run->options->audit;
+    tc_image_destroy(&run->image);
+    tc_status status =
+        tc_render(&run->image, stats, renderer, run->mesh, run->tf, &run->camera, &render, &talk->log, &err);
+    if (status == TC_E_LOST && render.stepper == TC_STEPPER_PLANES) {
+        run->lost = err;
+        return -1;
+    }
+    return status ? tc_talk_status(talk, status, &err) : -1;
+}
+
+/* The frames to time, after one to warm up when --repeat was given; then the counted one. */
+static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
+{
+    const tc_render_command *options = run->options;
+    size_t n = (size_t)options->repeat;
+    bool count = options->count || options->audit || options->stats || options->has_verify || run->chosen;
+    int code = tc_frame(run, &run->first, frames->renderer, false, talk);
+    run->count = run->first;
+    if (code >= 0)
+        return code;
+    for (size_t i = 0; i < n; i++) {
+        tc_render_stats stats = run->first;
+        if (options->has_repeat) {
+            code = tc_frame(run, &stats, frames->renderer, false, talk);
+            run->count = stats;
+            if (code >= 0)
+                return code;
+            if (talk->log.progress)
+                talk->log.progress(talk->log.user, "frames", (double)(i + 1) / (double)n);
+        }
+        frames->frame[i] = stats.ms_frame;
+        frames->first_hit[i] = stats.ms_first_hit;
+        frames->march[i] = stats.ms_march;
+        frames->readback[i] = stats.ms_readback;
+    }
+    run->frames = (int)n;
+    tc_spread_of(&run->frame, frames->frame, n);
+    tc_spread_of(&run->first_hit, frames->first_hit, n);
+    tc_spread_of(&run->march, frames->march, n);
+    tc_spread_of(&run->readback, frames->readback, n);
+    if (!count || (!strcmp(run->first.driver, "reference") && !options->audit)) /* it counts in every frame */
+        return -1;
+    code = tc_frame(run, &run->count, frames->renderer, true, talk);
+    run->counted = code < 0;
+    if (code >= 0 || !options->audit)
+        return code;
+    run->broken = run->count.audit_broken > 0;
+    if (!run->broken)
+        tc_talk_say(talk, "audit: in all %lld visited cells exactly two faces held the ray",
+                    (long long)run->count.steps);
+    return -1;
+}
+
+static int tc_picture_write(tc_render_run *run, tc_talk *talk, int argc, char **argv)
+{
+    const tc_render_command *options = run->options;
+    tc_error err = {0};
+    tc_meta meta;
+    tc_meta_make(&meta, run, argc, argv);
+    if (options->background.there)
+        tc_image_background(run->image, options->background.rgba);
+    double start = tc_talk_clock_s();
+    tc_status status = tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
+    run->ms_write = 1e3 * (tc_talk_clock_s() - start);
+    tc_meta_finish(&meta);
+    return status ? tc_talk_status(talk, status, &err) : -1;
+}
+
+static void tc_empty_warn(const tc_render_run *run, tc_talk *talk)
+{
+    char why[512];
+    const double peak = (double)tc_image_peak(run->image);
+    if (peak >= TC_VISIBLE)
+        return;
+    if (peak > 0) {
+        tc_talk_always(talk,
+                       "the picture is all but empty: no pixel is more opaque than %.3g, less than half an 8-bit step; "
+                       "raise --opacity or make --unit-distance smaller",
+                       peak);
+        return;
+    }
+    tc_empty_reason(why, sizeof why, &run->report, tc_run_field(run), run->tf,
+                    run->options->nan_color.there ? run->render.nan_color : NULL, &run->camera, &run->options->size);
+    tc_talk_always(talk, "the picture is empty: %s", why);
+}
+
+static void tc_render_summary(const tc_render_run *run, tc_talk *talk)
+{
+    const tc_render_stats *stats = &run->first;
+    char frame[48] = "";
+    if (run->report.reentry == TC_REENTRY_PEEL && *run->report.reentry_why &&
+        !talk->verbose) /* verbose: said already */
+        tc_talk_say(talk, "rays cross the mesh's gaps by peeling: %s", run->report.reentry_why);
+    if (isfinite(run->frame.median))
+        snprintf(frame, sizeof frame, ", frame %.1f ms", run->frame.median);
+    tc_talk_say(talk, "%zu tets, %zu imaginary; %s%s%s%s%s%s; wrote %s", run->report.n_tet, run->report.n_imaginary,
+                stats->context, *stats->context ? " " : "", stats->driver, *stats->integrator ? ", " : "",
+                stats->integrator, frame, strcmp(run->options->output, "-") ? run->options->output : "stdout");
+}
+
+void tc_source_notes_say(const tc_mesh *mesh, const char *input, tc_talk *talk)
+{
+    const tc_source *source = tc_mesh_source(mesh);
+    for (size_t i = 0; source && i < source->n_note; i++)
+        tc_talk_say(talk, "%s: %s", input, source->note[i]);
+}
+
+void tc_nonfinite_say(const tc_render_run *run, tc_talk *talk)
+{
+    const tc_mesh_report *report = &run->report;
+    if (report->nonfinite_cells)
+        tc_talk_say(talk, "%zu of %zu cells have a value that is not finite and are %s", report->nonfinite_cells,
+                    report->n_tet,
+                    run->options->nan_color.there ? "shown with --nan-color" : "transparent; --nan-color shows them");
+    if (report->dropped_nonfinite)
+        tc_talk_say(talk, "%zu cells have a point that is not finite and were dropped", report->dropped_nonfinite);
+}
+
+int tc_render_ready(tc_render_run *run, tc_frames *frames, const double range[2], tc_talk *talk)
+{
+    const tc_render_command *options = run->options;
+    tc_error err = {0};
+    tc_renderer_options make = {.gl = options->gl, .driver = options->driver, .threads = options->source.threads};
+    int code = tc_transfer_make(run, range, talk);
+    if (code < 0)
+        code = tc_render_camera(&run->camera, options, run->report.bounds, talk);
+    if (code >= 0)
+        return code;
+    tc_render_set(&run->render, options);
+    tc_status status = tc_renderer_create(&frames->renderer, &make, &talk->log, &err);
+    return status ? tc_talk_status(talk, status, &err) : -1;
+}
+
+int tc_render_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
+{
+    const tc_render_command *options = run->options;
+    int code = -1;
+    if (tc_choice_asked(options))
+        code = tc_choice_make(run, frames->renderer, talk);
+    if (code >= 0)
+        return code;
+    code = tc_frames_run(run, frames, talk);
+    if (code < 0 && options->has_verify)
+        code = tc_verify_run(run, talk);
+    if (code < 0)
+        tc_choice_take_verify(run, talk);
+    if (code < 0)
+        code = tc_choice_judge(run, talk);
+    if (code < 0) {
+        tc_empty_warn(run, talk);
+        code = tc_picture_write(run, talk, argc, argv);
+    }
+    if (code < 0 && run->errors)
+        code = tc_error_image_write(run, talk, argc, argv);
+    run->measured = code < 0 || run->count.rays_lost > 0; /* a lost ray is in the numbers, but makes no picture */
+    return code;
+}
+
+int tc_render_end(const tc_render_run *run, tc_talk *talk)
+{
+    tc_render_summary(run, talk);
+    if (run->lost.code)
+        return tc_talk_status(talk, run->lost.code, &run->lost);
+    if (!run->broken)
+        return -1;
+    tc_talk_error(talk, "%s: in %lld of %lld visited cells other than two faces held the ray; please report it",
+                  run->options->input, (long long)run->count.audit_broken, (long long)run->count.steps);
+    return TC_EXIT_FAILED;
+}
