@@ -33,14 +33,34 @@ json m.json eq march.samples 4 lacks march.pixels_refined eq march.state_bits 32
 # Where rounding folds the hull (here entries count twice) a picture is made again by peeling, with all of its rays.
 run 0 render $sink --samples adaptive -o once.exr
 sed 's/atomicCounterIncrement(entries);/& atomicCounterIncrement(entries);/' "$TC_SOURCE/gpu/shaders/first_hit.frag" >first_hit.frag
-TETCAST_SHADERS=.
-export TETCAST_SHADERS
-run 0 render $sink --samples adaptive -o twice.exr --verbose --stats twice.json
-unset TETCAST_SHADERS
+for driver in pingpong compute; do
+    TETCAST_SHADERS=.
+    export TETCAST_SHADERS
+    run 0 render $sink --samples adaptive -o twice.exr --verbose --stats twice.json --driver $driver
+    unset TETCAST_SHADERS
+    says "the frame is peeled"
+    json twice.json eq march.driver $driver eq march.rays_lost 0 ge march.pixels_refined 10
+    run 0 compare once.exr twice.exr
+done
 rm first_hit.frag
-says "the frame is peeled"
-json twice.json eq march.rays_lost 0 ge march.pixels_refined 10
-run 0 compare once.exr twice.exr
+
+# A ray that never comes out (here of its first cell) is lost, and the walk ends.
+sed 's/w.cell = mesh_neighbour(cell, dropped, w.id);/w.cell = cell;/' "$TC_SOURCE/gpu/shaders/stepper.glsl" >stepper.glsl
+for driver in pingpong compute; do
+    TETCAST_SHADERS=.
+    export TETCAST_SHADERS
+    run 1 render synth:tet --size 16x16 -o tet.png --stats tet.json --driver $driver
+    unset TETCAST_SHADERS
+    says "rays were lost; the picture is not to be trusted"
+    rays=$(sed -n 's/.*"rays": \([0-9]*\).*/\1/p' tet.json)
+    json tet.json eq march.driver $driver ge march.rays 20 eq march.rays_lost "$rays"
+done
+rm stepper.glsl
+
+# What compute does not have is absent.
+run 0 render $sink --stats compute.json --driver compute --z-update-every 4
+json compute.json eq march.driver compute ge march.passes 1 lacks march.z_updates lacks march.z_update_every \
+    ge march.fragments_per_pass.0 100 ge march.steps 1000 eq march.rays_lost 0
 
 # Repeated: median with its extremes, in order.
 run 0 render $sink --stats r.json --repeat 3

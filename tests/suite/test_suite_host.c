@@ -192,10 +192,12 @@ static void clear_target(const scene *s)
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+static const char *driver; /* of host_renderer */
+
 static tc_renderer *host_renderer(void)
 {
     tc_renderer *renderer;
-    const tc_renderer_options options = {.driver = "pingpong", .get_proc_address = get_proc};
+    const tc_renderer_options options = {.driver = driver, .get_proc_address = get_proc};
     tc_error err = {0};
     if (tc_renderer_create(&renderer, &options, NULL, &err) != TC_OK)
         fail_msg("%s", err.text);
@@ -329,7 +331,7 @@ static const struct {
     Q(GL_UNPACK_SWAP_BYTES, 1),
 #undef Q
 };
-enum { N_QUERY = sizeof queries / sizeof *queries, N_UNIT = 10, N_IMAGE = 4 };
+enum { N_QUERY = sizeof queries / sizeof *queries, N_UNIT = 10, N_IMAGE = 16 };
 
 static const struct {
     GLenum name;
@@ -699,5 +701,12 @@ int main(void)
         printf("libOSMesa.so.8 is not installed; skipped\n");
         return SKIPPED;
     }
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    const struct CMUnitTest by_compute[] = {
+        cmocka_unit_test(picture_in_the_hosts_framebuffer_is_another),
+        cmocka_unit_test(the_hosts_state_is_changed),
+    };
+    driver = "pingpong";
+    int failed = cmocka_run_group_tests(tests, set_up, tear_down);
+    driver = "compute";
+    return failed + cmocka_run_group_tests(by_compute, set_up, tear_down);
 }

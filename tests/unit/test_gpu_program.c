@@ -121,6 +121,7 @@ static void compilers_errors_name_another_line(void **state)
         {"#define SIGN_TINY 3 3\n", "signs.glsl", "const float SIGN_TINY"},
         {"#define tf_table 3 3\n", "integrate_table.glsl", "uniform sampler3D tf_table"},
         {"#define out_at 3 3\n", "march.frag", "out vec2 out_at"},
+        {"#define place_in_tile 3 3\n", "march.comp", "ivec2 place_in_tile("},
     };
     bool any = false;
     for (int c = 0; c < GL_CONTEXTS; c++) {
@@ -129,8 +130,9 @@ static void compilers_errors_name_another_line(void **state)
             continue;
         any = true;
         for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
-            const tc_program_source source = {"screen.vert", "march.frag", breaks[i].define,
-                                              "integrator.glsl=integrate_table.glsl"};
+            const bool compute = strcmp(breaks[i].file, "march.comp") == 0;
+            const tc_program_source source = {compute ? NULL : "screen.vert", compute ? "march.comp" : "march.frag",
+                                              breaks[i].define, "integrator.glsl=integrate_table.glsl"};
             GLuint program;
             tc_error err = {0};
             assert_int_equal(tc_program_get(&program, one.cache, &source, &err), TC_E_GL);
@@ -206,6 +208,21 @@ static void expect_uniform(const tc_gl *gl, GLuint program, const char *name, bo
         fail_msg("%s is %s a program with features %d", name, there ? "in" : "missing from", features);
 }
 
+/* Of a program that walks rays. */
+static void expect_march(const tc_gl *gl, GLuint march, int f)
+{
+    expect_uniform(gl, march, "mesh_real", f & IMAGINARY, f);
+    expect_uniform(gl, march, "mesh_cell_scalar", f & CELLS, f);
+    expect_uniform(gl, march, "state_steps", f & COUNT, f);
+    expect_uniform(gl, march, "tf_table", f & TABLE, f);
+    expect_uniform(gl, march, "tf_nodes", !(f & TABLE), f);
+    expect_uniform(gl, march, "peel_key", false, f);
+    expect_uniform(gl, march, "nan_color", (f & MISSING) && (f & CELLS), f);
+    expect_uniform(gl, march, "ray_near", f & INSIDE, f);
+    expect_uniform(gl, march, "ray_far", f & FAR, f);
+    expect_uniform(gl, march, "sample_mask", false, f);
+}
+
 static void a_program_holds_what_its_scene_does_not_need(void **state)
 {
     (void)state;
@@ -233,16 +250,11 @@ static void a_program_holds_what_its_scene_does_not_need(void **state)
         tc_frame frame = frame_of(f);
         tc_job job = job_of(f, &frame);
         GLuint march = get(o.cache, "screen.vert", "march.frag", &job);
-        expect_uniform(gl, march, "mesh_real", f & IMAGINARY, f);
-        expect_uniform(gl, march, "mesh_cell_scalar", f & CELLS, f);
-        expect_uniform(gl, march, "state_steps", f & COUNT, f);
-        expect_uniform(gl, march, "tf_table", f & TABLE, f);
-        expect_uniform(gl, march, "tf_nodes", !(f & TABLE), f);
-        expect_uniform(gl, march, "peel_key", false, f);
-        expect_uniform(gl, march, "nan_color", (f & MISSING) && (f & CELLS), f);
-        expect_uniform(gl, march, "ray_near", f & INSIDE, f);
-        expect_uniform(gl, march, "ray_far", f & FAR, f);
-        expect_uniform(gl, march, "sample_mask", false, f);
+        GLuint compute = get(o.cache, NULL, "march.comp", &job);
+        expect_march(gl, march, f);
+        expect_march(gl, compute, f);
+        expect_uniform(gl, compute, "out_steps", f & COUNT, f);
+        assert_int_equal(get(o.cache, NULL, "march.comp", &job), compute);
         GLuint first = get(o.cache, "first_hit.vert", "first_hit.frag", &job);
         expect_uniform(gl, first, "sample_mask", false, f);
         expect_uniform(gl, first, "peel_key", f & PEEL, f);
@@ -389,6 +401,10 @@ static void some_shader_does_not_compile(void **state)
             job.software = way & 2;
             get(o.cache, "screen.vert", "march.frag", &job);
             get(o.cache, "first_hit.vert", "first_hit.frag", &job);
+            if (f % 4 == way) { /* what it does not share with march.frag has one option */
+                job.audit = job.count;
+                get(o.cache, NULL, "march.comp", &job);
+            }
         }
     }
     const tc_frame outside = {.clip_near = false};
