@@ -151,7 +151,8 @@ def passes(page):
     for r in data["rows"]:
         rows.append([r["name"] if r["name"] != "auto" else f"auto ({num(r['steps_per_pass'])})", num(r["frame_ms"]),
                      num(base / r["frame_ms"]) if base else None, num(r["passes"]), count(r["fragments"])])
-    text = (f"## Cells a pass\n\n{data['input']}, {data['size']}, mean over the views. K = 1 is the paper's loop; the best is {data['best']}.\n\n" +
+    text = (f"## Cells a pass\n\n{data['input']}, {data['size']}, mean over the views. K = 1 is the paper's loop; the best is "
+            f"{data['best']}.\n\n" +
             table(["cell steps a pass", "ms a frame", "faster than K = 1 by", "passes", "fragments"], rows))
     if "fragment_ns" in data:
         text += (f"\nBetween K = 1 and {data['best']}, each fragment that is spared saves {num(data['fragment_ns'])} ns" +
@@ -180,10 +181,10 @@ def parts(page):
         return page.absent("Where a step's time goes", "parts")
     head = ["part", "how it is measured", "ns", "instructions", "cycles"]
     rows = [[r["name"], r["what"], num(r.get("ns")), num(r.get("instructions")), num(r.get("cycles"))] for r in data["rows"]]
-    text = (f"## Where a step's time goes\n\n{data['input']}, a cell step of one ray, of all {data['threads']} threads together: march time over cell "
-            "steps; instructions and cycles in user space, those of first hits and reading back among them. A part is the difference of two programs on the same rays, one of which "
-            "leaves it out or does it once more with other numbers; what is done once more finds its data in the cache, and part of it "
-            "hides behind what waits for memory, so that parts do not add up to the whole.\n\n" + table(head, rows))
+    text = (f"## Where a step's time goes\n\n{data['input']}, a cell step of one ray, of all {data['threads']} threads together: march time "
+            "over cell steps; instructions and cycles in user space, those of first hits and reading back among them. A part is the "
+            "difference of two programs on the same rays, one of which leaves it out or does it once more with other numbers; what is "
+            "done once more finds its data in the cache, and part of it hides behind what waits for memory, so that parts do not add up to the whole.\n\n" + table(head, rows))
     for misfit in data["misfits"]:
         text += f"\nLeft out: {misfit}.\n"
     passes_data = page.section("passes")
@@ -196,8 +197,11 @@ def parts(page):
                    [["all", num(data["least_instructions"]), ""]]))
     if "instructions" in walk:
         text += (f"\nThe bare walk takes {num(walk['instructions'])} instructions a step, {num(walk['instructions'] / data['least_instructions'])} "
-                 "times as many. In the gap are rays of one group of eight that have ended while others go on, bounds of the "
-                 "fetches, which llvmpipe checks lane by lane, and registers that are put aside.\n")
+                 "times as many. In the gap are " +
+                 (f"rays that have ended while others of their group go on ({num(100 * (1 - data['lanes']))} % of the lanes of 4×2 pixels), "
+                  if data.get("lanes") else "rays that have ended while others of their group go on, ") +
+                 "first hits and reading back, bounds of the fetches, which llvmpipe checks lane by lane, and registers that are put "
+                 "aside.\n")
     memory = data.get("memory")
     if memory and "ns" in default:
         rate = {"bare walk": (data["bytes_walk"], walk["ns"]), "default": (data["bytes_default"], default["ns"])}
@@ -217,9 +221,10 @@ def signs(page):
         return page.absent("What exact signs cost", "signs")
     rows = [[r["input"], num(r["azimuth"]), num(r["exact_ms"]), num(r["float_ms"]), num(r["ratio"]),
              count(r["float_lost"])] for r in data["rows"]]
-    middle = statistics.median(r["ratio"] for r in data["rows"])
-    page.add(f"## What exact signs cost\n\nFrames in turn with exact signs and with plain float ones, which lose rays: {num(middle)} times "
-             "as long in the middle.\n\n" +
+    ratios = [r["ratio"] for r in data["rows"] if r["ratio"]]
+    middle = f"{num(statistics.median(ratios))} times as long in the middle" if ratios else "no ratio, since they lose rays in all rows"
+    page.add(f"## What exact signs cost\n\nFrames in turn with exact signs and with plain float ones: {middle}. Where floats lose rays "
+             "passes go on for these, and there is no ratio.\n\n" +
              table(["mesh", "azimuth", "exact, ms", "float, ms", "ratio", "rays lost by floats"], rows))
 
 
@@ -241,13 +246,15 @@ def growth(page):
     for r in data["rows"]:
         t = r["time_ms"]
         rows.append([r["generator"], count(r["cells"]), count(r["imaginary"]), num(r["setup_ms"] / 1e3), num(r["setup_us_per_tet"]),
+                     num(1e3 * t["convexify"] / r["cells"]) if t.get("convexify") else None,
                      num(r["default"]["frame_ms"]), num(r["no stop"]["frame_ms"]), num(r["bare walk"]["frame_ms"]),
-                     num(r["no stop"]["steps"] / r["no stop"]["rays"]), num(r["peak_bytes"] / 2**30)])
+                     num(r["no stop"]["steps"] / r["no stop"]["rays"]), num(r["peak_bytes"] / 2**30),
+                     num(r["helper_peak_bytes"] / 2**30) if r["helper_peak_bytes"] else None])
     text = (f"## Size\n\nSynthetic meshes, {data['size']}, one oblique view, {data['threads']} threads: a convex one (*kuhn*) and one that is not "
-            "(*heatsink*). Set-up is all between reading and the first frame: check, order, neighbours, gaps, pack, upload. *no stop*: no "
-            "ray ends before it leaves the mesh.\n\n" +
-            table(["mesh", "tets", "imaginary", "set-up, s", "µs a tet", "frame, ms", "no stop, ms", "bare walk, ms", "steps a ray",
-                   "peak GiB"], rows))
+            "(*heatsink*). Set-up is all between reading and the first frame: check, order, neighbours, gaps (TetGen, a process apart), "
+            "pack, upload. *no stop*: no ray ends before it leaves the mesh.\n\n" +
+            table(["mesh", "tets", "imaginary", "set-up, s", "µs a tet", "gaps, µs a tet", "frame, ms", "no stop, ms", "bare walk, ms",
+                   "steps a ray", "peak GiB", "TetGen's"], rows))
     for left in data["left_out"]:
         text += f"\nLeft out: {left}.\n"
     fits = [[name, num(value)] for name, value in data["fits"].items() if value is not None]
@@ -307,7 +314,11 @@ def small(page):
         page.absent("The pre-integration table", "tables")
     data = page.section("counts")
     if data:
-        page.add(f"## Instructions, counted\n\nUnder callgrind with one thread: the same in every run.\n\n```\n{data['text'].strip()}\n```")
+        text = "## Instructions, counted\n\nBy callgrind, one thread: the same in every run, and on a busy machine.\n"
+        for group in data["groups"]:
+            text += f"\n{group['title'][0].upper() + group['title'][1:]}:\n\n"
+            text += table(["part", "instructions"], [[r["what"], num(r["count"], 4)] for r in group["rows"]])
+        page.add(text)
     else:
         page.absent("Instructions, counted", "counts")
 

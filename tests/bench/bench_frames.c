@@ -2,16 +2,19 @@
  * does falls on all of them. JSON on stdout.
  *
  * Usage: bench_frames INPUT [--field NAME] [--cell-data] [--reentry auto|convexify|peel] [--size N] [--threads N]
- *                     [--azimuths A,B,…] [--elevation E] [--frames F] [--apart] VARIANT...
+ *                     [--azimuths A,B,…] [--elevation E] [--frames F] [--apart] [--lanes] VARIANT...
  * INPUT: a file or synth:NAME[:CELLS]. VARIANT: NAME[,KEY=VALUE]… with the keys shaders (a folder for TETCAST_SHADERS),
- * driver, stepper, integrator, steps-per-pass, z-update-every, opacity-stop. Variants that differ in shaders, driver, stepper or
- * integrator have a renderer each; --apart: one at a time, for meshes of which memory holds one copy only, view by
- * view and not in turn.
+ * driver, stepper, integrator, steps-per-pass, z-update-every, opacity-stop. Variants that differ in shaders, driver,
+ * stepper or integrator have a renderer each; --apart: one at a time, for meshes of which memory holds one copy only,
+ * view by view and not in turn.
  *
  * Of each variant and view: medians over F frames after one to warm up (two in the first view); then one frame that
  * counts steps and fragments.
  * Instructions and cycles are those of all threads in user space per frame, the reading back of the picture among them;
- * absent where the machine does not count. A variant whose frame fails has "failed" with the reason: it may lose rays. */
+ * absent where the machine does not count. --lanes: "lanes" of the first variant is the share of lanes with a cell to
+ * step through, where groups of 4 x 2 pixels go on until the last of them is done, as llvmpipe's with registers of
+ * eight floats. A variant whose frame fails has "failed" with the reason: it may lose rays.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "bench_counters.h"
 #include "bench_scene.h"
@@ -44,7 +47,7 @@ typedef struct bench {
     tc_reentry reentry;
     int size, threads, frames, n_view, n_variant;
     double view[VIEWS_MOST], elevation;
-    bool apart;
+    bool apart, lanes;
     bench_counters counters;
     variant variant[VARIANTS_MOST];
 } bench;
@@ -136,6 +139,8 @@ static void parse(bench *b, int argc, char **argv)
             b->association = TC_CELL_DATA;
         else if (!strcmp(name, "--apart"))
             b->apart = true;
+        else if (!strcmp(name, "--lanes"))
+            b->lanes = true;
         else if (name[0] == '-')
             usage("no option", name);
         else if (!b->input)
@@ -242,6 +247,38 @@ static void describe(variant *v, const tc_render_stats *stats)
     bench_set(v->json, "gpu_bytes_state", stats->gpu_bytes_state);
 }
 
+/* Steps over what groups of lanes take that go on until their last ray is done; NAN on a failure. */
+static double busy_lanes(bench *b, variant *v, const tc_camera *camera)
+{
+    enum { WIDTH = 4, HEIGHT = 2 };
+    int size = b->size;
+    double steps = 0, lanes = 0;
+    tc_image *image = NULL;
+    tc_render_stats stats;
+    tc_error err = {0};
+    tc_render_options options = v->options;
+    tc_audit_ray *ray = malloc((size_t)size * (size_t)size * sizeof *ray);
+    options.audit = true;
+    use_shaders(v);
+    bool done = ray &&
+                tc_render(&image, &stats, v->renderer, b->scene.mesh, b->tf, camera, &options, NULL, &err) == TC_OK &&
+                tc_render_audit(ray, v->renderer, &err) == TC_OK;
+    for (int y = 0; y < size && done; y += HEIGHT)
+        for (int x = 0; x < size; x += WIDTH) {
+            uint32_t most = 0;
+            for (int j = y; j < y + HEIGHT && j < size; j++)
+                for (int i = x; i < x + WIDTH && i < size; i++) {
+                    uint32_t cells = ray[(size_t)j * (size_t)size + (size_t)i].cells;
+                    most = cells > most ? cells : most;
+                    steps += cells;
+                }
+            lanes += (double)most * WIDTH * HEIGHT;
+        }
+    tc_image_destroy(&image);
+    free(ray);
+    return done && lanes > 0 ? steps / lanes : NAN;
+}
+
 /* What a view has shown. */
 static void summarise(variant *v, bench *b, double azimuth, const tc_camera *camera, const tc_render_stats *last)
 {
@@ -264,6 +301,8 @@ static void summarise(variant *v, bench *b, double azimuth, const tc_camera *cam
         bench_set(view, "steps", (double)counted.steps);
         bench_set(view, "steps_max", (double)counted.steps_max);
         bench_set(view, "fragments", fragments_of(&counted));
+        if (b->lanes && v == b->variant)
+            bench_set(view, "lanes", busy_lanes(b, v, camera));
     }
     json_array_append_new(v->views, view);
 }

@@ -1,8 +1,8 @@
 /* bench_transfer: a new transfer function to the next frame, against a frame alone. JSON on stdout.
  * Usage: bench_transfer INPUT [FIELD] [SIZE] [PAIRS]
  * In turn, a frame with the function of the frame before and one with another, freshly made: of the same shape, other
- * opacity. The change is what the second call takes longer (wall time; tables, upload), besides the frame. Median of the
- * ratios (frame + change) / frame over the pairs, for the default integrator and for the 2003 paper's table. */
+ * opacity. The change is what the second call takes longer (wall time; tables, upload), besides the frame. Median of
+ * the ratios (frame + change) / frame over the pairs, for the default integrator and for the 2003 paper's table. */
 #include "bench_scene.h"
 
 #include <stdio.h>

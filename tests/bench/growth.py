@@ -30,7 +30,7 @@ def one(options, generator, cells, variants):
     setup = sum(time.get(key, 0) for key in SETUP) + default.get("pack_ms", 0) + default.get("upload_ms", 0)
     row = {"generator": generator, "cells": tets, "imaginary": result["mesh"]["imaginary_tets"], "setup_ms": setup,
            "setup_us_per_tet": 1e3 * setup / tets, "time_ms": dict(time, pack=default.get("pack_ms"), upload=default.get("upload_ms")),
-           "peak_bytes": result["peak_bytes"], "reentry": result["mesh"]["reentry"]}
+           "peak_bytes": result["peak_bytes"], "helper_peak_bytes": result["helper_peak_bytes"], "reentry": result["mesh"]["reentry"]}
     for name, variant in found.items():
         row[name] = {key: mean_of_views(variant, key) for key in ("frame_ms", "march_ms", "steps", "rays", "rays_lost")}
     return row
@@ -41,7 +41,7 @@ def measure(options):
     bare = shader_folder(options, "bare", bare=True)
     variants = {"default": "", "no stop": "opacity-stop=1", "bare walk": f"shaders={bare},opacity-stop=1"}
     rows, left_out, bars, fits = [], [], [], {}
-    print(f"  {'mesh':<10}{'cells':>10}{'set-up us/tet':>15}{'frame ms':>10}{'no stop':>10}{'bare walk':>10}{'steps/ray':>10}"
+    print(f"  {'mesh':<10}{'cells':>10}{'set-up us/tet':>15}{'gaps':>8}{'frame ms':>10}{'no stop':>10}{'bare walk':>10}{'steps/ray':>10}"
           f"{'peak GiB':>10}")
     for generator, sizes in (QUICK if options.quick else SIZES).items():
         for cells in sizes:
@@ -56,7 +56,8 @@ def measure(options):
                 print(f"  left out: {left_out[-1]}")
                 continue
             rows.append(row)
-            print(f"  {generator:<10}{row['cells']:>10}{row['setup_us_per_tet']:>15.3f}{row['default']['frame_ms']:>10.1f}"
+            print(f"  {generator:<10}{row['cells']:>10}{row['setup_us_per_tet']:>15.3f}"
+                  f"{1e3 * row['time_ms'].get('convexify', 0) / row['cells']:>8.3f}{row['default']['frame_ms']:>10.1f}"
                   f"{row['no stop']['frame_ms']:>10.1f}{row['bare walk']['frame_ms']:>10.1f}"
                   f"{row['no stop']['steps'] / row['no stop']['rays']:>10.1f}{row['peak_bytes'] / 2**30:>10.2f}", flush=True)
         of = [row for row in rows if row["generator"] == generator]

@@ -67,13 +67,18 @@ def counts(options):
     """Instructions under callgrind: the same in every run."""
     if not shutil.which("valgrind"):
         raise Absent("valgrind is not installed")
-    path = next((p for p in (os.path.join(common.HERE, "counts" + end) for end in (".py", ".sh")) if os.path.exists(p)), None)
-    if not path:
-        raise Absent("tests/bench/counts.py is not there")
-    runner = [common.VTK_PYTHON] if path.endswith(".py") else ["sh"]
-    text = run([*runner, path, options.build], limit=600)
-    print(text)
-    return {"text": text}, []
+    text = run(["sh", script("counts.sh"), program(options, "bench_setup")] + (["kuhn", "5000"] if options.quick else []), limit=600)
+    groups = []
+    for line in text.splitlines():
+        print("  " + line)
+        words = line.rsplit(None, 1)
+        if line.endswith(("a tet", "an entry")):
+            groups.append({"title": line, "rows": []})
+        elif len(words) == 2 and groups:
+            groups[-1]["rows"].append({"what": words[0].strip(), "count": float(words[1])})
+    if not groups:
+        raise Failure("counts.sh printed no figures")
+    return {"groups": groups}, []
 
 
 def tables(options):

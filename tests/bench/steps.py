@@ -104,18 +104,19 @@ def signs(options):
         found = by_name(result)
         for exact, plain in zip(found["exact"]["views"], found["float"]["views"]):
             rows.append({"input": os.path.basename(what[0]), "azimuth": exact["azimuth"], "exact_ms": exact["frame_ms"],
-                         "float_ms": plain["frame_ms"], "ratio": exact["frame_ms"] / plain["frame_ms"],
-                         "float_lost": plain.get("rays_lost")})
+                         "float_ms": plain["frame_ms"], "float_lost": plain["rays_lost"],
+                         # passes go on for a ray that is lost
+                         "ratio": exact["frame_ms"] / plain["frame_ms"] if plain["rays_lost"] == 0 else None})
             row = rows[-1]
             print(f"  {row['input']:<22} at {row['azimuth']:<5g}{row['exact_ms']:>9.2f} ms exact {row['float_ms']:>9.2f} ms "
-                  f"float {row['ratio']:>7.3f}, {row['float_lost']:.0f} rays lost by floats")
+                  f"float {row['ratio'] or float('nan'):>7.3f}, {row['float_lost']:.0f} rays lost by floats")
     return {"rows": rows}, []
 
 
 # Rows of `parts`: name, the variant, the one it is compared with, what the difference is.
 PARTS = [
     ("integration", "default", "walk", "the default integrator against none"),
-    ("interpolation", "walk", "walk no-interpolation", "depth and scalar at the exit face, left out"),
+    ("interpolation", "walk", "walk no-interpolation", "depth and scalar at the exit face, left out with what carries those of vertices"),
     ("fetch of a vertex", "walk vertex-twice", "walk", "16 bytes, once more"),
     ("fetch of a neighbour", "walk neighbour-twice", "walk", "4 bytes, once more"),
     ("fetch of a fourth vertex' number", "walk fourth-twice", "walk", "4 bytes, once more"),
@@ -139,7 +140,7 @@ def parts(options):
             print(f"  {name}: left out: {failure}")
             continue
         variants[name] = f"shaders={folder},{stop}" if edits or bare else stop
-    result = frames(options, mesh_and_size(options) + views(options, 2) + ["--frames", str(2 * options.frames)], variants)
+    result = frames(options, mesh_and_size(options) + views(options, 2) + ["--frames", str(2 * options.frames), "--lanes"], variants)
     found = {}
     for name, variant in by_name(result).items():
         if "failed" in variant:
@@ -169,7 +170,7 @@ def parts(options):
     data = {"rows": rows, "input": name_of(result), "misfits": misfits, "steps": steps, "rays": found["default"]["rays"], "mesh": result["mesh"],
             "variants": found, "counters": result["counters"], "least_instructions": least,
             "least": [{"part": p, "instructions": n / 8, "what": w} for p, n, w in shaders.LEAST],
-            "bytes_walk": 24, "bytes_default": 56, "threads": options.threads}
+            "lanes": mean_of_views(by_name(result)["default"], "lanes"), "bytes_walk": 24, "bytes_default": 56, "threads": options.threads}
     try:
         data["memory"] = json.loads(common.run([common.program(options, "bench_read"), str(options.threads),
                                                 "64" if options.quick else "512"]))
