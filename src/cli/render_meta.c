@@ -130,6 +130,18 @@ static char *tc_notes_text(const tc_render_run *run)
     return text;
 }
 
+/* The time step's number and time; NULL when the file has none. */
+static char *tc_step_text(const tc_render_run *run)
+{
+    const tc_source *source = tc_mesh_source(run->mesh);
+    if (!source || source->step < 0 || (size_t)source->step >= source->n_time)
+        return NULL;
+    json_t *json = json_object();
+    json_object_set_new(json, "step", json_integer(source->step));
+    tc_json_real(json, "time", source->time[source->step]);
+    return tc_compact(json);
+}
+
 static char *tc_verify_text(const tc_verify_result *verify)
 {
     json_t *json = json_object();
@@ -164,6 +176,7 @@ void tc_meta_make(tc_meta *out, const tc_render_run *run, int argc, char **argv)
     tc_meta_add(out, "tetcast:camera", tc_camera_text(&run->camera));
     tc_meta_add(out, "tetcast:transfer_function", tc_transfer_text(run));
     tc_meta_add(out, "tetcast:field", *field ? strdup(field) : NULL);
+    tc_meta_add(out, "tetcast:step", tc_step_text(run));
     tc_meta_add(out, "tetcast:notes", tc_notes_text(run));
     tc_meta_add(out, "tetcast:choice", run->chosen ? tc_compact(tc_choice_json(run)) : NULL);
     tc_meta_add(out, "tetcast:verify", run->verified ? tc_verify_text(&run->verify) : NULL);

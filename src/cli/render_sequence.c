@@ -194,7 +194,9 @@ static int tc_step_render(tc_sequence *s, size_t i, bool set_up, tc_talk *talk, 
     if (i == 0) {
         if (!(s->options.unit_distance > 0))
             s->options.unit_distance = tc_default_unit_distance(run.mesh);
-        code = tc_render_ready(&run, &s->frames, s->n > 1 && s->has_range ? s->range : run.report.scalar_range, talk);
+        if (s->n == 1)
+            tc_range_add(s);
+        code = tc_render_ready(&run, &s->frames, s->has_range ? s->range : run.report.scalar_range, talk);
         s->tf = run.tf;
         s->camera = run.camera;
         s->render = run.render;
@@ -222,7 +224,9 @@ static int tc_stats_end(tc_sequence *s, tc_talk *talk)
     tc_json_measured(time, "ranges", s->ms_ranges);
     tc_json_measured(time, "total", 1e3 * (tc_talk_clock_s() - talk->start_s));
     json_object_set_new(s->stats, "time_ms", time);
-    json_object_set_new(s->stats, "transfer_range", tc_json_reals(s->range, 2));
+    if (s->options.has_range || s->has_range)
+        json_object_set_new(s->stats, "transfer_range",
+                            tc_json_reals(s->options.has_range ? s->options.range : s->range, 2));
     tc_render_memory_json(s->stats);
     if (json_object_set(s->stats, "steps", s->steps))
         return tc_memory_fail(talk);

@@ -43,7 +43,8 @@ run 0 render run.pvd $small --step 2:3 -o seen.exr --range=-1,5 --unit-distance 
     --focal-point 0.5,0.5,0.5 --stats t.json
 run 0 compare one.exr seen_0003.exr --warn 0
 prints "max 0 at"
-json t.json lacks time_ms.ranges
+grep -a -q tetcast:step seen_0003.exr || fail "seen_0003.exr carries no step"
+json t.json lacks time_ms.ranges eq transfer_range.1 5
 
 # Names, and steps from the end; a step says its name.
 run 0 render run.pvd --size 8x8 --step -3::2
