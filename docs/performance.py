@@ -137,8 +137,8 @@ def peers(page):
         ours = [num(1e3 / by_name[n]["frame_ms"]) if n in by_name else None for n in ("tetcast", "tetcast 2003")]
         rows.append([title, count(cells), count(row["data"]["tets"] + imaginary), num(fps), ours[1], ours[0]])
     if rows:
-        page.add("## The 2003 paper's table 2\n\nFrames a second at 512×512. The paper's are of a Radeon 9700 Pro (Weiler et al. 2003, "
-                 "section 6), ours of the machine above; Blunt Fin is the same mesh, filled to its hull, the others have other shapes of the "
+        page.add(f"## The 2003 paper's table 2\n\nFrames a second. The paper's are of a Radeon 9700 Pro at 512×512 (Weiler et al. 2003, "
+                 f"section 6), ours at {data['size']} of the machine above; Blunt Fin is the same mesh, filled to its hull, the others have other shapes of the "
                  "same number of cells (`tetcast synth`), before their gaps are filled.\n\n" +
                  table(["mesh", "cells, paper", "cells, ours, with imaginary ones", "paper", "tetcast, the paper's way", "tetcast"], rows))
 
@@ -248,13 +248,14 @@ def growth(page):
         rows.append([r["generator"], count(r["cells"]), count(r["imaginary"]), num(r["setup_ms"] / 1e3), num(r["setup_us_per_tet"]),
                      num(1e3 * t["convexify"] / r["cells"]) if t.get("convexify") else None,
                      num(r["default"]["frame_ms"]), num(r["no stop"]["frame_ms"]), num(r["bare walk"]["frame_ms"]),
-                     num(r["no stop"]["steps"] / r["no stop"]["rays"]), num(r["peak_bytes"] / 2**30),
+                     num(r["no stop"]["steps"] / r["no stop"]["rays"]),
+                     num(1e-3 * r["no stop"]["steps"] / r["no stop"]["march_ms"]), num(r["peak_bytes"] / 2**30),
                      num(r["helper_peak_bytes"] / 2**30) if r["helper_peak_bytes"] else None])
     text = (f"## Size\n\nSynthetic meshes, {data['size']}, one oblique view, {data['threads']} threads: a convex one (*kuhn*) and one that is not "
             "(*heatsink*). Set-up is all between reading and the first frame: check, order, neighbours, gaps (TetGen, a process apart), "
             "pack, upload. *no stop*: no ray ends before it leaves the mesh.\n\n" +
             table(["mesh", "tets", "imaginary", "set-up, s", "µs a tet", "gaps, µs a tet", "frame, ms", "no stop, ms", "bare walk, ms",
-                   "steps a ray", "peak GiB", "TetGen's"], rows))
+                   "steps a ray", "10⁶ steps/s", "peak GiB", "TetGen's"], rows))
     for left in data["left_out"]:
         text += f"\nLeft out: {left}.\n"
     fits = [[name, num(value)] for name, value in data["fits"].items() if value is not None]

@@ -8,7 +8,7 @@ from steps import shader_folder
 SIZES = {"kuhn": [10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000, 10_000_000, 50_000_000],
          "heatsink": [10_000, 100_000, 1_000_000, 10_000_000]}
 QUICK = {"kuhn": [5_000, 20_000], "heatsink": [5_000, 20_000]}
-BYTES_PER_TET = 260  # of memory that a run is expected to take, with the mesh in double precision
+BYTES_PER_TET = 160  # of memory that a run is expected to take at the most
 SETUP = ["check", "adjacency", "order", "convexify"]
 STEEPEST, SETUP_MOST, SETUP_AT = 0.45, 2.0, 10_000_000
 
