@@ -101,14 +101,14 @@ static void vertex_range(void *context, size_t begin, size_t end, int worker)
     }
 }
 
-static int bin_of(float s)
-{
-    int bin = (int)(s * TC_PACK_BINS);
-    return bin < 0 ? 0 : bin >= TC_PACK_BINS ? TC_PACK_BINS - 1 : bin;
-}
-
 enum { LEVELS = 7 }; /* runs of 1, 2, … 64 bins */
 _Static_assert(1 << (LEVELS - 1) == TC_PACK_BINS, "the longest run is all bins");
+
+/* The longest run within 1, 2, … bins. */
+static const unsigned char level_of[TC_PACK_BINS] = {
+    0, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5,
+    5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 6,
+};
 
 /* An extent in the making. What a cell says of the bins between its least and its greatest scalar costs the same however
  * many they are: two runs of 2^k bins that cover them hold the maxima, and `step` says where whole bins begin and end. */
@@ -136,25 +136,31 @@ static void gather_run(gather *g, int level, int bin, float edge, float edge_ran
         g->edge_range[level][bin] = edge_range;
 }
 
-/* A cell of packed scalars lo … hi. */
-static void gather_cell(gather *g, float square, float edge, float lo, float hi)
+/* Some cells side by side, so that one instruction serves several. */
+enum { LANES = 64 };
+
+typedef struct lanes {
+    float vertex[4][LANES][4];                             /* x, y, z and scalar of each corner */
+    float square[LANES], edge[LANES], edge_range[LANES];   /* of the longest edge; NaN: a scalar is not finite */
+    float before[LANES], after[LANES];                     /* how far into its first and last bin a cell's scalars reach */
+    int32_t first[LANES], last[LANES];                     /* these bins */
+} lanes;
+
+/* A cell of the bins first … last. */
+static void gather_cell(gather *g, const lanes *l, size_t c)
 {
-    float edge_range = edge * (hi - lo);
-    double weight = square, from = (double)lo * TC_PACK_BINS, to = (double)hi * TC_PACK_BINS;
-    int first = bin_of(lo), last = bin_of(hi);
+    int first = l->first[c], last = l->last[c], level = level_of[last - first];
+    float edge = l->edge[c], edge_range = l->edge_range[c];
+    double weight = l->square[c];
     g->weight += weight;
+    gather_run(g, level, first, edge, edge_range);
     if (first == last) {
-        gather_run(g, 0, first, edge, edge_range);
-        g->held[first] += weight * (to - from);
+        g->held[first] += weight * (double)(l->after[c] - l->before[c]);
         return;
     }
-    int level = 0;
-    while (2 << level <= last - first + 1)
-        level++;
-    gather_run(g, level, first, edge, edge_range);
     gather_run(g, level, last + 1 - (1 << level), edge, edge_range);
-    g->held[first] += weight * (first + 1 - from);
-    g->held[last] += weight * (to - last);
+    g->held[first] += weight * (double)(1 - l->before[c]);
+    g->held[last] += weight * (double)l->after[c];
     g->step[first + 1] += weight;
     g->step[last] -= weight;
 }
@@ -175,39 +181,41 @@ static void gather_finish(tc_pack_extent *out, gather *g)
     }
 }
 
-/* Some cells side by side, so that one instruction serves several. */
-enum { LANES = 64 };
-
-typedef struct lanes {
-    float corner[4][4][LANES]; /* x, y, z and scalar of each corner */
-    float square[LANES], edge[LANES], lo[LANES], hi[LANES], known[LANES];
-} lanes;
-
 static void load_lanes(lanes *l, const float *vertex, const int32_t *tet, size_t n)
 {
     for (size_t c = 0; c < n; c++)
         for (int i = 0; i < 4; i++)
-            for (int k = 0; k < 4; k++)
-                l->corner[i][k][c] = vertex[4 * (size_t)tet[4 * c + (size_t)i] + (size_t)k];
+            memcpy(l->vertex[i][c], vertex + 4 * (size_t)tet[4 * c + (size_t)i], sizeof l->vertex[i][c]);
 }
 
-/* The longest edges and their squares; the least and greatest scalar, and a NaN in `known` where one is not finite. */
 static void measure_lanes(lanes *l)
 {
     memset(l->square, 0, sizeof l->square);
     for (int i = 1; i < 4; i++)
         for (int j = 0; j < i; j++)
             for (int c = 0; c < LANES; c++) {
-                float x = l->corner[i][0][c] - l->corner[j][0][c], y = l->corner[i][1][c] - l->corner[j][1][c];
-                float z = l->corner[i][2][c] - l->corner[j][2][c], square = x * x + y * y + z * z;
+                const float *p = l->vertex[i][c], *q = l->vertex[j][c];
+                float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2], square = x * x + y * y + z * z;
                 l->square[c] = larger(square, l->square[c]);
             }
+    float lo[LANES], hi[LANES];
     for (int c = 0; c < LANES; c++) {
-        float s[4] = {l->corner[0][3][c], l->corner[1][3][c], l->corner[2][3][c], l->corner[3][3][c]};
+        float s[4] = {l->vertex[0][c][3], l->vertex[1][c][3], l->vertex[2][c][3], l->vertex[3][c][3]};
+        float least = smaller(smaller(s[0], s[1]), smaller(s[2], s[3]));
+        float most = larger(larger(s[0], s[1]), larger(s[2], s[3]));
+        float unknown = (s[0] + s[1] + s[2] + s[3]) * 0; /* 0, or NaN */
         l->edge[c] = sqrtf(l->square[c]);
-        l->lo[c] = smaller(smaller(s[0], s[1]), smaller(s[2], s[3]));
-        l->hi[c] = larger(larger(s[0], s[1]), larger(s[2], s[3]));
-        l->known[c] = s[0] + s[1] + s[2] + s[3];
+        l->edge_range[c] = l->edge[c] * (most - least) + unknown;
+        lo[c] = larger(least, 0); /* a number in any case */
+        hi[c] = larger(most, 0);
+    }
+    for (int c = 0; c < LANES; c++) { /* apart, so that no branch keeps the compiler from lanes */
+        float from = lo[c] * TC_PACK_BINS, to = hi[c] * TC_PACK_BINS;
+        int32_t first = (int32_t)from, last = (int32_t)to;
+        l->first[c] = first < TC_PACK_BINS ? first : TC_PACK_BINS - 1;
+        l->last[c] = last < TC_PACK_BINS ? last : TC_PACK_BINS - 1;
+        l->before[c] = from - (float)l->first[c];
+        l->after[c] = to - (float)l->last[c];
     }
 }
 
@@ -227,12 +235,12 @@ static void extent_range(void *context, size_t begin, size_t end, int worker)
             float value = map_scalar(j->mesh->scalar[i + c], pack->scalar_lo, pack->scalar_hi);
             pack->cell_scalar[i + c] = value;
             for (int k = 0; k < 4; k++)
-                l.corner[k][3][c] = value;
+                l.vertex[k][c][3] = value;
         }
         measure_lanes(&l);
         for (size_t c = 0; c < n; c++)
-            if (!isnan(l.known[c]))
-                gather_cell(&g, l.square[c], l.edge[c], l.lo[c], l.hi[c]);
+            if (!isnan(l.edge_range[c]))
+                gather_cell(&g, &l, c);
     }
     gather_finish(&s->extent, &g);
     s->weight = g.weight;
