@@ -21,7 +21,7 @@ _Static_assert(TET_MAP + 1 == TC_CACHE_PARTS, "every part has its place in the h
 /* What of a mesh is no array; texts and lists follow it in the description. */
 typedef struct facts {
     uint64_t n_vertex, n_tet, n_imaginary, n_vertex_source, n_tet_source;
-    uint64_t n_point, n_cell, n_array, n_cell_type, n_time, n_note, dropped_cells;
+    uint64_t source_hash, n_point, n_cell, n_array, n_cell_type, n_time, n_note, dropped_cells;
     int32_t association, asked, step, refine, linearised, maps;
     tc_mesh_report report;
     tc_file_repairs file;
@@ -58,6 +58,7 @@ static void put_facts(FILE *stream, const tc_mesh *m)
     memset(&f, 0, sizeof f);
     f.n_vertex = m->n_vertex, f.n_tet = m->n_tet, f.n_imaginary = m->n_imaginary;
     f.n_vertex_source = m->n_vertex_source, f.n_tet_source = m->n_tet_source;
+    f.source_hash = m->source_hash;
     f.n_point = s->n_point, f.n_cell = s->n_cell, f.dropped_cells = s->dropped_cells;
     f.n_array = s->n_array, f.n_cell_type = s->n_cell_type, f.n_time = s->n_time, f.n_note = s->n_note;
     f.association = (int32_t)m->association;
@@ -383,6 +384,7 @@ tc_status tc_mesh_load(tc_mesh **out, const char *cache, const tc_cache_key *key
     m->association = f.association == TC_CELL_DATA ? TC_CELL_DATA : TC_POINT_DATA;
     m->asked = (tc_reentry)f.asked;
     m->gaps_may_do = false;
+    m->source_hash = f.source_hash;
     m->report = f.report;
     m->file = f.file;
     m->serial = tc_mesh_new_serial();

@@ -235,8 +235,10 @@ static int tc_stats_end(tc_sequence *s, tc_talk *talk)
 
 static int tc_sequence_run(tc_sequence *s, tc_talk *talk, int argc, char **argv)
 {
-    int code = tc_input_load(&s->mesh, &s->ms_read, &s->options.source, s->options.input, talk);
-    if (code < 0)
+    tc_input_seen seen;
+    int code = tc_input_open(&s->mesh, &seen, &s->options.source, s->options.input, talk);
+    s->ms_read = seen.ms_read;
+    if (s->mesh)
         tc_source_notes_say(s->mesh, s->options.input, talk);
     if (code < 0)
         code = tc_steps_find(s, s->options.input, talk);

@@ -125,6 +125,7 @@ static void a_mesh_comes_back_as_it_was_saved(void **state)
     assert_memory_equal(b->vertex_of_source, a->vertex_of_source, a->n_vertex_source * 4);
     assert_memory_equal(b->tet_of_source, a->tet_of_source, a->n_tet_source * 4);
     assert_string_equal(b->field_name, a->field_name);
+    assert_true(b->source_hash == a->source_hash && b->source_hash != 0);
     assert_true(b->serial != a->serial && b->serial != 0 && b->scalar_serial != a->scalar_serial);
     tc_mesh_report x, y;
     tc_mesh_get_report(&x, a);
@@ -159,6 +160,12 @@ static void a_mesh_comes_back_as_it_was_saved(void **state)
     assert_int_equal(tc_mesh_set_scalar(a, value, TC_POINT_DATA, &err), TC_OK);
     assert_int_equal(tc_mesh_set_scalar(b, value, TC_POINT_DATA, &err), TC_OK);
     assert_memory_equal(b->scalar, a->scalar, a->n_vertex * 8);
+
+    /* So do those of another field of the file, by the reader. */
+    const tc_read_options cold = {.field = "cold"};
+    assert_int_equal(tc_mesh_read_values(NULL, b, mesh_path, &cold, NULL, &err), TC_OK);
+    for (size_t v = 0; v < b->n_vertex; v++)
+        assert_true(b->scalar[v] == 9 - a->scalar[v] / 10);
     tc_mesh_destroy(&a);
     tc_mesh_destroy(&b);
 }
