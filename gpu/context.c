@@ -27,10 +27,11 @@ static void finish(tc_context *context)
     tc_gl_watch_end(&context->gl);
 }
 
-static tc_status try_kind(tc_context *context, const tc_context_kind *kind, tc_error *err)
+static tc_status try_kind(tc_context *context, const tc_context_kind *kind, bool hardware_only, tc_error *err)
 {
     memset(context, 0, sizeof *context);
     context->kind = kind;
+    context->hardware_only = hardware_only;
     context->debug = tc_gl_watch_wanted();
     tc_status status = kind->create(context, err);
     if (status == TC_OK && context->debug)
@@ -46,7 +47,7 @@ static tc_status try_kind(tc_context *context, const tc_context_kind *kind, tc_e
 static tc_status create_auto(tc_context *context, const tc_log *log, tc_error *err)
 {
     tc_error why_egl = {0}, why_osmesa = {0};
-    if (try_kind(context, &tc_context_egl, &why_egl) == TC_OK) {
+    if (try_kind(context, &tc_context_egl, true, &why_egl) == TC_OK) {
         if (!context->software)
             return TC_OK;
         tc_say(log, TC_DEBUG, "context egl: %s is a software renderer; osmesa is tried first", context->gl.renderer);
@@ -55,10 +56,10 @@ static tc_status create_auto(tc_context *context, const tc_log *log, tc_error *e
     } else {
         tc_say(log, TC_DEBUG, "context egl: %s", why_egl.text);
     }
-    if (try_kind(context, &tc_context_osmesa, &why_osmesa) == TC_OK)
+    if (try_kind(context, &tc_context_osmesa, false, &why_osmesa) == TC_OK)
         return TC_OK;
     tc_say(log, TC_DEBUG, "context osmesa: %s", why_osmesa.text);
-    if (try_kind(context, &tc_context_egl, &why_egl) == TC_OK)
+    if (try_kind(context, &tc_context_egl, false, &why_egl) == TC_OK)
         return TC_OK;
     return tc_fail(err, TC_E_GL, "no GL context can be made: egl: %.300s; osmesa: %.300s", why_egl.text,
                    why_osmesa.text);
@@ -78,7 +79,7 @@ tc_status tc_context_create(tc_context **out, const char *name, const tc_log *lo
         while (*kind && strcmp((*kind)->name, name) != 0)
             kind++;
         if (*kind)
-            status = try_kind(context, *kind, err);
+            status = try_kind(context, *kind, false, err);
         else
             status = tc_fail(err, TC_E_ARG, "unknown GL context '%s'; there are auto, osmesa and egl", name);
     }
@@ -105,12 +106,17 @@ static tc_status host_make_current(tc_context *context, tc_error *err)
     return TC_OK;
 }
 
+static void host_release(tc_context *context)
+{
+    (void)context;
+}
+
 static void host_finish(tc_context *context)
 {
     (void)context;
 }
 
-static const tc_context_kind host_kind = {"host", host_create, host_make_current, host_finish};
+static const tc_context_kind host_kind = {"host", host_create, host_make_current, host_release, host_finish};
 
 tc_status tc_context_create_host(tc_context **out, tc_get_proc get_proc, tc_error *err)
 {
@@ -132,6 +138,11 @@ tc_status tc_context_create_host(tc_context **out, tc_get_proc get_proc, tc_erro
 tc_status tc_context_make_current(tc_context *context, tc_error *err)
 {
     return context->kind->make_current(context, err);
+}
+
+void tc_context_release(tc_context *context)
+{
+    context->kind->release(context);
 }
 
 void tc_context_destroy(tc_context **context)

@@ -12,6 +12,7 @@ typedef struct tc_context_kind {
     const char *name;
     tc_status (*create)(tc_context *context, tc_error *err);
     tc_status (*make_current)(tc_context *context, tc_error *err);
+    void (*release)(tc_context *context); /* current on no thread any more */
     void (*finish)(tc_context *context);
 } tc_context_kind;
 
@@ -20,6 +21,7 @@ struct tc_context {
     tc_gl gl;
     bool software;        /* the renderer runs on the CPU */
     bool debug;           /* create asks for a debug context */
+    bool hardware_only;   /* create need not try what is known to be software */
     tc_get_proc get_proc; /* set by create */
     void *state;          /* of the kind */
 };
@@ -36,6 +38,8 @@ tc_status tc_context_create(tc_context **out, const char *name, const tc_log *lo
 /* A context that the host owns and has made current; its make_current does nothing; it is left as it is, so not watched. */
 tc_status tc_context_create_host(tc_context **out, tc_get_proc get_proc, tc_error *err);
 tc_status tc_context_make_current(tc_context *context, tc_error *err);
+/* Takes it from the calling thread, so that another one can make it current. */
+void tc_context_release(tc_context *context);
 void tc_context_destroy(tc_context **context);
 
 #endif

@@ -134,7 +134,9 @@ static tc_status egl_create(tc_context *context, tc_error *err)
     EGLint n = 0;
     if (s->query_devices && !s->query_devices(MAX_DEVICES, devices, &n))
         n = 0;
-    for (int software = 0; software < 2; software++) /* hardware devices first */
+    /* To open a software device takes as long as to open a GPU, and where devices are listed all GPUs are. */
+    const bool listed = context->hardware_only && n > 0;
+    for (int software = 0; software < (listed ? 1 : 2); software++) /* hardware devices first */
         for (EGLint i = 0; i < n; i++) {
             const char *extensions = s->query_device_string ? s->query_device_string(devices[i], EGL_EXTENSIONS) : NULL;
             bool is_software = extensions && strstr(extensions, "EGL_MESA_device_software") != NULL;
@@ -142,10 +144,18 @@ static tc_status egl_create(tc_context *context, tc_error *err)
                 open_display(context, s->get_platform_display(EGL_PLATFORM_DEVICE_EXT, devices[i], NULL), err) == TC_OK)
                 return TC_OK;
         }
+    if (listed)
+        return tc_fail(err, TC_E_GL, "EGL offers no OpenGL 4.3 context on a GPU (%d devices listed)", (int)n);
     if (open_display(context, s->get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL), err) ==
         TC_OK)
         return TC_OK;
     return tc_fail(err, TC_E_GL, "EGL offers no OpenGL 4.3 context without a display (%d devices tried)", (int)n);
+}
+
+static void egl_release(tc_context *context)
+{
+    egl_state *s = context->state;
+    s->make_current(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 static void egl_finish(tc_context *context)
@@ -158,4 +168,4 @@ static void egl_finish(tc_context *context)
     context->state = NULL;
 }
 
-const tc_context_kind tc_context_egl = {"egl", egl_create, egl_make_current, egl_finish};
+const tc_context_kind tc_context_egl = {"egl", egl_create, egl_make_current, egl_release, egl_finish};

@@ -85,6 +85,12 @@ static tc_status osmesa_create(tc_context *context, tc_error *err)
     return status == TC_OK ? tc_gl_load(&context->gl, s->get_proc, err) : status;
 }
 
+static void osmesa_release(tc_context *context)
+{
+    osmesa_state *s = context->state;
+    s->make_current(NULL, NULL, 0, 0, 0);
+}
+
 static void osmesa_finish(tc_context *context)
 {
     osmesa_state *s = context->state;
@@ -97,4 +103,4 @@ static void osmesa_finish(tc_context *context)
     context->state = NULL;
 }
 
-const tc_context_kind tc_context_osmesa = {"osmesa", osmesa_create, osmesa_make_current, osmesa_finish};
+const tc_context_kind tc_context_osmesa = {"osmesa", osmesa_create, osmesa_make_current, osmesa_release, osmesa_finish};

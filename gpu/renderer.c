@@ -100,6 +100,11 @@ void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer)
     *renderer = NULL;
 }
 
+void tc_gpu_renderer_release(tc_gpu_renderer *renderer)
+{
+    tc_context_release(renderer->context);
+}
+
 const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer)
 {
     return renderer->context;

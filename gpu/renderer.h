@@ -24,6 +24,8 @@ typedef struct tc_gpu_frame {
 tc_status tc_gpu_renderer_create(tc_gpu_renderer **out, const char *name, tc_get_proc get_proc, int threads,
                                  const tc_log *log, tc_error *err);
 void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer);
+/* Takes its context from the calling thread, so that the next call may come from another one. */
+void tc_gpu_renderer_release(tc_gpu_renderer *renderer);
 const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer);
 
 /* Packs, uploads and compiles what changed, then renders; the result stays in a texture. Fills stats.

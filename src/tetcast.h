@@ -331,6 +331,16 @@ TC_API tc_status tc_image_write(const tc_image *image, const char *path, const t
                                 const tc_log *log, tc_error *err);
 TC_API tc_status tc_image_read(tc_image **out, const char *path, tc_error *err);
 
+/* The program that encodes pictures, started before there is one: it needs 0.2 s to start, which pass while the caller does
+ * something else, and serves any number of them. Not for two threads at a time. */
+typedef struct tc_image_writer tc_image_writer;
+/* Starts it and returns at once. Errors: TC_E_WORKER, TC_E_MEMORY. */
+TC_API tc_status tc_image_writer_create(tc_image_writer **out, tc_error *err);
+/* tc_image_write through it; if it died it is started anew. */
+TC_API tc_status tc_image_writer_save(tc_image_writer *writer, const tc_image *image, const char *path,
+                                      const tc_text_pair *meta, size_t n, const tc_log *log, tc_error *err);
+TC_API void tc_image_writer_destroy(tc_image_writer **writer);
+
 typedef struct tc_compare_result {
     double max_abs, mean_abs, p999_abs, rms; /* over channels; mean and rms over pixels covered in either image */
     size_t pixels, covered, differing;       /* differing: a channel differs by more than 1/255 */
@@ -380,6 +390,13 @@ typedef struct tc_renderer_options {
  * before OpenGL 4.3: says why), TC_E_MEMORY. Cost: making a context, 10 to some 100 ms. */
 TC_API tc_status tc_renderer_create(tc_renderer **out, const tc_renderer_options *options, const tc_log *log,
                                     tc_error *err);
+/* tc_renderer_create on a thread of its own: begins and returns at once; options (with the texts it points to) is borrowed
+ * until the end. Not in a host's context. Errors: TC_E_ARG, TC_E_MEMORY. */
+typedef struct tc_renderer_start tc_renderer_start;
+TC_API tc_status tc_renderer_begin(tc_renderer_start **out, const tc_renderer_options *options, tc_error *err);
+/* Waits for it, and is then as tc_renderer_create; what that had to say goes to log now. *start is freed. out NULL: the
+ * renderer is not wanted any more. */
+TC_API tc_status tc_renderer_end(tc_renderer **out, tc_renderer_start **start, const tc_log *log, tc_error *err);
 /* Frees what is in the GL context, and the context if it is the renderer's own. A host's context must be current. */
 TC_API void tc_renderer_destroy(tc_renderer **renderer);
 

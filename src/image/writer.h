@@ -5,8 +5,6 @@
 
 #include "core/status.h"
 
-typedef struct tc_image_writer tc_image_writer;
-
 /* How a file holds its pixels; zero is the default of each format. */
 typedef struct tc_image_encoding {
     int bits;    /* a channel; PNG: 8 (default) or 16; EXR: 32 (default) or 16 (half); TIFF: 32; JPEG: 8 */
@@ -18,11 +16,6 @@ typedef struct tc_image_meta {
     size_t n;
     tc_text_pair *pair;
 } tc_image_meta;
-
-/* Starts the helper and returns at once: its start-up of about 0.2 s overlaps whatever the caller does next. Not for
- * two threads at a time. Errors: TC_E_WORKER, TC_E_MEMORY. */
-tc_status tc_image_writer_create(tc_image_writer **out, tc_error *err);
-void tc_image_writer_destroy(tc_image_writer **writer);
 
 /* tc_image_write with a helper that is there already. A helper that died is started anew by the next call.
  * PNG: un-premultiplied in float, then rounded; RGB when every pixel is opaque. JPEG: 4:4:4, over white where not

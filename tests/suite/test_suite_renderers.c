@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "suite.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,6 +65,61 @@ static void destroying_a_renderer_breaks_another(void **state)
     assert_true(suite_difference(before, after) <= 0);
     tc_image_destroy(&after);
     tc_image_destroy(&before);
+}
+
+/* What is said from another thread than that of main. */
+typedef struct talk {
+    pthread_t thread;
+    int lines, elsewhere;
+} talk;
+
+static void hear(void *user, tc_level level, const char *text)
+{
+    talk *t = user;
+    (void)level;
+    t->lines += text[0] != 0;
+    t->elsewhere += !pthread_equal(t->thread, pthread_self());
+}
+
+static void a_renderer_made_on_a_thread_of_its_own_draws_otherwise(void **state)
+{
+    const scene *s = *state;
+    const bool compute = strstr(suite_backend(), "-compute") != NULL;
+    const tc_renderer_options options = {.gl = suite_is_gpu() ? suite_context() : NULL,
+                                         .driver = compute          ? "compute"
+                                                   : suite_is_gpu() ? "pingpong"
+                                                                    : "reference"};
+    talk heard = {.thread = pthread_self()};
+    const tc_log log = {.message = hear, .user = &heard};
+    tc_renderer_start *start = NULL, *unwanted = NULL;
+    tc_renderer *renderer = NULL;
+    tc_error err = {0};
+    assert_int_equal(tc_renderer_begin(&start, &options, &err), TC_OK);
+    tc_image *before = suite_render(NULL, s->mesh, s->tf, &s->camera, &s->options); /* meanwhile */
+    if (tc_renderer_end(&renderer, &start, &log, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    assert_null(start);
+    assert_int_equal(heard.elsewhere, 0);
+    assert_int_equal(heard.lines > 0, suite_is_gpu()); /* which context it is */
+    for (int i = 0; i < 2; i++) {
+        tc_image *image = render(s, renderer);
+        assert_true(suite_difference(before, image) <= 0);
+        tc_image_destroy(&image);
+    }
+    assert_int_equal(tc_renderer_begin(&unwanted, &options, &err), TC_OK);
+    assert_int_equal(tc_renderer_end(NULL, &unwanted, NULL, &err), TC_OK);
+    assert_null(unwanted);
+    tc_image *after = render(s, renderer);
+    assert_true(suite_difference(before, after) <= 0);
+    tc_image_destroy(&after);
+    tc_image_destroy(&before);
+    tc_renderer_destroy(&renderer);
+
+    const tc_renderer_options wrong = {.gl = "osmosa", .driver = "pingpong"};
+    assert_int_equal(tc_renderer_begin(&start, &wrong, &err), TC_OK);
+    assert_int_equal(tc_renderer_end(&renderer, &start, NULL, &err), TC_E_ARG);
+    assert_non_null(strstr(err.text, "osmosa"));
+    assert_null(renderer);
 }
 
 /* Records of more ints than a buffer texture has texels: two or four ints share one. */
@@ -188,6 +244,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(destroying_a_renderer_breaks_another),
+        cmocka_unit_test(a_renderer_made_on_a_thread_of_its_own_draws_otherwise),
         cmocka_unit_test(a_mesh_beyond_the_limit_of_texels_looks_different),
         cmocka_unit_test(asking_for_the_back_ends_breaks_a_renderer),
         cmocka_unit_test(an_unknown_integrator_is_taken),
