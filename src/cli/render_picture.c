@@ -8,13 +8,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define TC_VISIBLE (0.5 / 255) /* opacity below which an 8-bit picture stays empty */
 
 int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *talk)
 {
     size_t n = (size_t)options->repeat;
-    *out = (tc_frames){.frame = calloc(n, 4 * sizeof(double))};
+    *out = (tc_frames){
+        .make = {.gl = options->gl, .driver = options->driver, .threads = options->source.threads},
+        .frame = calloc(n, 4 * sizeof(double)),
+    };
     if (!out->frame) {
         tc_talk_error(talk, "memory ran out");
         return TC_EXIT_FAILED;
@@ -22,12 +26,19 @@ int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *ta
     out->first_hit = out->frame + n;
     out->march = out->first_hit + n;
     out->readback = out->march + n;
+    if (tc_input_is_synthetic(options->input) || access(options->input, R_OK) == 0) {
+        tc_renderer_begin(&out->start, &out->make, NULL); /* what fails here is done, and told, when it is needed */
+        tc_image_writer_create(&out->writer, NULL);
+    }
     return -1;
 }
 
 void tc_frames_finish(tc_frames *frames)
 {
+    if (frames->start)
+        tc_renderer_end(NULL, &frames->start, NULL, NULL);
     tc_renderer_destroy(&frames->renderer);
+    tc_image_writer_destroy(&frames->writer);
     free(frames->frame);
     frames->frame = NULL;
 }
@@ -137,7 +148,7 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
     return -1;
 }
 
-static int tc_picture_write(tc_render_run *run, tc_talk *talk, int argc, char **argv)
+static int tc_picture_write(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
 {
     const tc_render_command *options = run->options;
     tc_error err = {0};
@@ -146,7 +157,10 @@ static int tc_picture_write(tc_render_run *run, tc_talk *talk, int argc, char **
     if (options->background.there)
         tc_image_background(run->image, options->background.rgba);
     double start = tc_talk_clock_s();
-    tc_status status = tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
+    tc_status status = frames->writer
+                           ? tc_image_writer_save(frames->writer, run->image, options->output, meta.pair, meta.n,
+                                                  &talk->log, &err)
+                           : tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
     run->ms_write = 1e3 * (tc_talk_clock_s() - start);
     tc_meta_finish(&meta);
     return status ? tc_talk_status(talk, status, &err) : -1;
@@ -206,14 +220,14 @@ int tc_render_ready(tc_render_run *run, tc_frames *frames, const double range[2]
 {
     const tc_render_command *options = run->options;
     tc_error err = {0};
-    tc_renderer_options make = {.gl = options->gl, .driver = options->driver, .threads = options->source.threads};
     int code = tc_transfer_make(run, range, talk);
     if (code < 0)
         code = tc_render_camera(&run->camera, options, run->report.bounds, talk);
     if (code >= 0)
         return code;
     tc_render_set(&run->render, options);
-    tc_status status = tc_renderer_create(&frames->renderer, &make, &talk->log, &err);
+    tc_status status = frames->start ? tc_renderer_end(&frames->renderer, &frames->start, &talk->log, &err)
+                                     : tc_renderer_create(&frames->renderer, &frames->make, &talk->log, &err);
     return status ? tc_talk_status(talk, status, &err) : -1;
 }
 
@@ -234,7 +248,7 @@ int tc_render_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int 
         code = tc_choice_judge(run, talk);
     if (code < 0) {
         tc_empty_warn(run, talk);
-        code = tc_picture_write(run, talk, argc, argv);
+        code = tc_picture_write(run, frames, talk, argc, argv);
     }
     if (code < 0 && run->errors)
         code = tc_error_image_write(run, talk, argc, argv);

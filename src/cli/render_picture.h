@@ -6,11 +6,15 @@
 
 /* What the frames of one run are made with. */
 typedef struct tc_frames {
+    tc_renderer_options make;
+    tc_renderer_start *start; /* until renderer is there */
     tc_renderer *renderer;
+    tc_image_writer *writer; /* NULL: pictures start one each */
     double *frame, *first_hit, *march, *readback; /* [repeat] each, one block */
 } tc_frames;
 
-/* Room for the times of --repeat; no renderer yet. -1, or the exit code of an error that was printed. */
+/* Room for the times of --repeat. Begins what needs no mesh: the renderer, which tc_render_ready waits for, and the program
+ * that writes pictures; finish ends what is there of them. -1, or the exit code of an error that was printed. */
 int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *talk);
 void tc_frames_finish(tc_frames *frames);
 
