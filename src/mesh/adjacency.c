@@ -445,7 +445,7 @@ tc_status tc_adjacency_build(int32_t *neighbour, uint8_t *duplicate, tc_adjacenc
     status = divide(&b, &part, n_block, in->threads, err);
     if (status != TC_OK)
         goto done;
-    tc_parallel_for(b.n_part, 1, in->threads, link_parts, &b);
+    tc_parallel_for(b.n_part, 1, (int)n_worker, link_parts, &b);
     if (atomic_load(&b.no_memory)) {
         status = tc_fail_memory(err, "linking the faces around some vertices", in->n_tet, 2 * sizeof(entry));
         goto done;

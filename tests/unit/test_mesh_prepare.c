@@ -118,9 +118,10 @@ static shape loose_cells(void)
     const int n[3] = {15, 15, 15};
     shape_grid(&grid, n, NULL);
     for (size_t t = 0; t < grid.n_tet; t++) {
+        const size_t from = t * 7919 % grid.n_tet; /* a permutation: points of one place are far apart */
         int32_t v[4];
         for (size_t i = 0; i < 4; i++) {
-            const double *p = grid.vertex + 3 * (size_t)grid.tet[4 * t + i];
+            const double *p = grid.vertex + 3 * (size_t)grid.tet[4 * from + i];
             v[i] = shape_vertex(&s, t % 11 == 3 && i == 2 ? (double)NAN : p[0], p[1], p[2]);
         }
         shape_tet(&s, v[0], v[1], v[2], t % 7 == 5 ? v[1] : v[3]);
@@ -166,6 +167,38 @@ static void repairs_depend_on_the_number_of_threads(void **state)
     free(scalar);
     tc_mesh_destroy(&b);
     end(&a, &s);
+}
+
+/* Of points that are merged the first gives its value, down to the sign of 0. */
+static void another_than_the_first_point_of_a_place_is_kept(void **state)
+{
+    (void)state;
+    shape s = loose_cells();
+    double *scalar = malloc(s.n_vertex * sizeof *scalar);
+    assert_non_null(scalar);
+    for (size_t v = 0; v < s.n_vertex; v++)
+        scalar[v] = v % 3 == 1 ? -0.0 : 0.0;
+    for (int threads = 1; threads < 8; threads += 3) {
+        tc_mesh *m = shape_mesh(&s, scalar, TC_POINT_DATA);
+        const tc_prepare_options options = {.reentry = TC_REENTRY_PEEL, .threads = threads};
+        assert_int_equal(tc_mesh_prepare(m, &options, NULL, NULL), TC_OK);
+        bool *seen = calloc(m->n_vertex, sizeof *seen);
+        assert_non_null(seen);
+        size_t minus = 0;
+        for (size_t v = 0; v < s.n_vertex; v++) {
+            int32_t w = m->vertex_of_source[v];
+            if (w < 0 || seen[w])
+                continue;
+            seen[w] = true;
+            minus += v % 3 == 1;
+            assert_int_equal(signbit(m->scalar[w]) != 0, v % 3 == 1);
+        }
+        assert_true(minus > 100 && minus < m->n_vertex - 100);
+        free(seen);
+        tc_mesh_destroy(&m);
+    }
+    free(scalar);
+    shape_finish(&s);
 }
 
 static void a_mesh_too_large_for_memory_is_begun_or_spoilt(void **state)
@@ -334,10 +367,12 @@ static void a_face_of_three_cells_is_unlinked(void **state)
 static void two_cells_on_one_side_of_a_face_are_unlinked(void **state)
 {
     (void)state;
-    for (int turn = 0; turn < 2; turn++) { /* in either winding of the file */
+    for (int turn = 0; turn < 16; turn++) { /* in either winding of the file, and vertices in several orders on the curve */
         shape s = one_tet();
-        shape_vertex(&s, 0.1, 0.1, 0.2);
-        if (turn)
+        shape_vertex(&s, 0.55, 0.2, 0.2); /* beyond vertex 1 on the curve, or before it */
+        for (size_t i = 0; i < 3 * s.n_vertex; i++)
+            s.vertex[i] *= turn >> (1 + i % 3) & 1 ? -1 : 1;
+        if (turn & 1)
             shape_tet(&s, 1, 2, 3, 4);
         else
             shape_tet(&s, 2, 1, 3, 4);
@@ -663,6 +698,7 @@ int main(void)
         cmocka_unit_test(a_kuhn_grid_is_linked_whole),
         cmocka_unit_test(the_result_does_not_depend_on_the_number_of_threads),
         cmocka_unit_test(repairs_depend_on_the_number_of_threads),
+        cmocka_unit_test(another_than_the_first_point_of_a_place_is_kept),
         cmocka_unit_test(a_mesh_too_large_for_memory_is_begun_or_spoilt),
         cmocka_unit_test(bad_cells_are_dropped_and_counted),
         cmocka_unit_test(an_equal_cell_keeps_the_value_of_the_first),
