@@ -153,11 +153,12 @@ static void a_moved_mesh_is_not_told(void **state)
     assert_int_equal(tc_mesh_read_values(&moved, mesh, f->list, &last, NULL, &err), TC_E_MOVED);
     assert_non_null(moved);
     assert_false(moved->prepared);
+    assert_true(moved->reader && !mesh->reader); /* goes on with the mesh that is read next */
     prepared(moved);
     tc_mesh *fresh = read_prepared(f->list, last, false);
     must_be_alike(moved, fresh);
     tc_mesh_destroy(&fresh);
-    /* both go on: the reader is the new one's now, the old one gets another */
+    /* both go on: the old one gets another reader */
     tc_mesh *again = NULL;
     assert_int_equal(tc_mesh_read_values(NULL, mesh, f->list, &second, NULL, &err), TC_OK);
     assert_int_equal(tc_mesh_read_values(&again, moved, f->list, &second, NULL, &err), TC_E_MOVED);
