@@ -2,6 +2,7 @@
  * bit for bit, and nothing but the values is sent. */
 #include "suite.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -142,6 +143,34 @@ static void more_than_the_values_is_sent(void **state)
     }
 }
 
+/* Where nearly all points have one value cells cross few knots of the function; with values at random they cross many. */
+static void an_integrator_is_chosen_by_the_values_before(void **state)
+{
+    const scene *s = *state;
+    static const tc_knot knot[] = {{0, 1, 0, 0, 0.01}, {0.3, 1, 0.1, 0, 0.03}, {0.5, 1, 0.3, 0, 0.02},
+                                   {0.7, 1, 0.1, 0, 0.03}, {0.8, 1, 0, 0, 0.01}, {1, 1, 0, 0, 0.04}};
+    char first[2][288];
+    tc_transfer *tf = suite_function(knot, sizeof knot / sizeof *knot);
+    tc_camera camera = suite_camera(s->mesh, 0.4, 0.5, 1, false);
+    tc_render_options options = suite_options(SIZE, SIZE);
+    for (int i = 0; i < 4 && suite_is_gpu(); i++) {
+        tc_render_stats stats;
+        for (size_t k = 0; k < s->made.n_vertex; k++)
+            s->value[k] = k < 2 ? (double)k : i % 2 ? (double)(k * 2654435761u % 1009) / 1009 : 0.1;
+        assert_int_equal(tc_mesh_set_scalar(s->mesh, s->value, TC_POINT_DATA, NULL), TC_OK);
+        tc_image *image = suite_render_by(&stats, s->renderer, s->mesh, tf, &camera, &options);
+        tc_image_destroy(&image);
+        if (i < 2)
+            snprintf(first[i], sizeof first[i], "%s, %s", stats.integrator, stats.integrator_why);
+        char now[288];
+        snprintf(now, sizeof now, "%s, %s", stats.integrator, stats.integrator_why);
+        assert_string_equal(now, first[i % 2]);
+        if (i == 1)
+            assert_string_not_equal(first[0], first[1]);
+    }
+    tc_transfer_destroy(&tf);
+}
+
 int main(int argc, char **argv)
 {
     if (!suite_begin(argc, argv))
@@ -149,6 +178,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_picture_after_new_values_is_not_that_of_a_fresh_mesh, set_up, tear_down),
         cmocka_unit_test_setup_teardown(more_than_the_values_is_sent, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(an_integrator_is_chosen_by_the_values_before, set_up, tear_down),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     suite_end();
