@@ -27,12 +27,13 @@ def main():
     out = common.run([os.path.join(build, "bench_frames"), "synth:kuhn:500", "--size", "24", "--frames", "1", "--azimuths", "35",
                       "--elevation", "25", "--apart", *listing])
     found = common.by_name(json.loads(out))
+    for name, variant in found.items():
+        if "failed" in variant:
+            sys.exit(f"{name}: {variant['failed']}")
     steps = found["default"]["views"][0]["steps"]
     if steps <= 0:
         sys.exit("the default makes no steps")
     for name, variant in found.items():
-        if "failed" in variant:
-            sys.exit(f"{name}: {variant['failed']}")
         view = variant["views"][0]
         if name != "float-signs" and (view["steps"] != steps or view["rays_lost"] != 0):
             sys.exit(f"{name}: {view['steps']:.0f} steps and {view['rays_lost']:.0f} rays lost, where the default makes {steps:.0f}")

@@ -85,7 +85,7 @@ EDITS = {
     "no-interpolation": {"stepper.glsl": [
         (r"(segment\.s0 = w\.s;\s*vec2 at = )walk_face_point\(w\);", r"\1vec2(w.z, w.s);")]},
     "vertex-twice": {"stepper.glsl": [
-        (r"(    w\.ahead_vertex = fetch\(mesh_vertices, w\.ahead\);)",
+        (r"(void walk_look_ahead\((?:(?!\n\})(?:.|\n))*?    w\.ahead_vertex = fetch\(mesh_vertices, w\.ahead\);)",
          r"\1\n    w.ahead_vertex.w += dot(fetch(mesh_vertices, w.ahead ^ 1), vec4(1.0)) == " + NEVER + " ? 1.0 : 0.0;")]},
     "neighbour-twice": {"mesh.glsl": [(returned("int", "mesh_neighbour"), again("rank"))]},
     "fourth-twice": {"mesh.glsl": [(returned("int", "mesh_fourth_vertex"), again("cell"))]},
