@@ -495,7 +495,9 @@ tc_status tc_choose(tc_render_options *options, tc_choose_report *report, tc_ren
     } else if (status == TC_OK) {
         c->n = tc_candidate_list(c->candidate, &fixed);
         c->view = tc_calibration_view(camera, &fixed);
-        c->key = key = tc_calibration_key(mesh, tf, unit, stats.gl_renderer, &fixed);
+        char where[sizeof stats.gl_renderer + sizeof stats.driver + 4]; /* either driver has times of its own */
+        snprintf(where, sizeof where, "%s, %s", stats.gl_renderer, stats.driver);
+        c->key = key = tc_calibration_key(mesh, tf, unit, where, &fixed);
         status = key ? choose(options, c, err) : tc_fail(err, TC_E_MEMORY, "out of memory: nothing could be chosen");
     }
     tc_probe_finish(&c->probe);

@@ -33,6 +33,10 @@ run 0 render $heat -o a.exr --error 0.01 --stats s.json --azimuth 50 # another v
 json s.json eq choice.cached true
 run 0 render $heat -o a.exr --error 0.01 --stats s.json --color-map Viridis # another function
 json s.json eq choice.cached false
+for cached in false true; do # another driver, with times of its own
+    run 0 render $heat -o a.exr --error 0.01 --stats s.json --driver compute
+    json s.json eq choice.cached $cached eq march.driver compute
+done
 run 0 render $heat -o a.exr --error 0.01 --stats s.json --no-cache
 json s.json eq choice.cached false
 

@@ -20,10 +20,10 @@
 
 /* Where pictures are made, and how many of their rays are judged. */
 typedef struct hard_bench {
-    const char *context;           /* "osmesa", "egl" or "reference" */
+    const char *context;           /* a back end of tests/common/backend.h */
     bool gpu;                      /* walks from cell to cell */
     bool exact;                    /* its floats are IEEE's: the judge's cells must be the walk's */
-    tc_renderer *renderer, *other; /* other: on another context, or NULL */
+    tc_renderer *renderer, *other; /* other: on another context or by another driver, or NULL */
     size_t judged, verified;       /* random rays by brute force and pixels by the reference, each picture */
     const char *write;             /* folder for pictures, or NULL */
 } hard_bench;

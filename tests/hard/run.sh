@@ -12,7 +12,7 @@ say() {
     echo "hard: $*" >&2
 }
 
-for context in osmesa egl; do
+for context in osmesa egl osmesa-compute; do
     size=192
     [ $context = osmesa ] || size=96 # the same walks again: a quarter of the rays
     say "$context, at length"
