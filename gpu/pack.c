@@ -110,8 +110,9 @@ static const unsigned char level_of[TC_PACK_BINS] = {
     5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 6,
 };
 
-/* An extent in the making. What a cell says of the bins between its least and its greatest scalar costs the same however
- * many they are: two runs of 2^k bins that cover them hold the maxima, and `step` says where whole bins begin and end. */
+/* An extent in the making. What a cell says of the bins between its least and its greatest scalar costs the same
+ * however many they are: two runs of 2^k bins that cover them hold the maxima, and `step` says where whole bins begin
+ * and end. */
 typedef struct gather {
     float edge[LEVELS][TC_PACK_BINS], edge_range[LEVELS][TC_PACK_BINS]; /* of the run that starts at a bin */
     double held[TC_PACK_BINS], step[TC_PACK_BINS + 1], weight;
@@ -140,10 +141,10 @@ static void gather_run(gather *g, int level, int bin, float edge, float edge_ran
 enum { LANES = 64 };
 
 typedef struct lanes {
-    float vertex[4][LANES][4];                             /* x, y, z and scalar of each corner */
-    float square[LANES], edge[LANES], edge_range[LANES];   /* of the longest edge; NaN: a scalar is not finite */
-    float before[LANES], after[LANES];                     /* how far into its first and last bin a cell's scalars reach */
-    int32_t first[LANES], last[LANES];                     /* these bins */
+    float vertex[4][LANES][4];                           /* x, y, z and scalar of each corner */
+    float square[LANES], edge[LANES], edge_range[LANES]; /* of the longest edge; NaN: a scalar is not finite */
+    float before[LANES], after[LANES]; /* how far into its first and last bin a cell's scalars reach */
+    int32_t first[LANES], last[LANES]; /* these bins */
 } lanes;
 
 /* A cell of the bins first … last. */
@@ -261,8 +262,8 @@ static void sum_extent(tc_pack_extent *out, const share *part, size_t n_part)
         out->held[b] = weight > 0 ? out->held[b] / weight : 0;
 }
 
-/* Writes an open face's corners, the least by place first: two open faces at one place, as where cells overlap, then give
- * a ray the same depth to the last bit, and not its rounding but their numbers tell which is entered first. */
+/* Writes an open face's corners, the least by place first: two open faces at one place, as where cells overlap, then
+ * give a ray the same depth to the last bit, and not its rounding but their numbers tell which is entered first. */
 static void pack_face(int32_t *face, float *corner, const tc_pack *pack, const int32_t *tet, int f)
 {
     int first = 0;

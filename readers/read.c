@@ -28,8 +28,8 @@ enum { TC_HASH_TEXT = 17 }; /* characters of a hash, with the end */
 /* ------------------------------------------------------------------------------------------ request */
 
 /* known: the hash of a mesh that need not be sent; 0: none. */
-static tc_status make_request(json_t **out, const char *path, const tc_read_options *options, bool keep,
-                              uint64_t known, tc_error *err)
+static tc_status make_request(json_t **out, const char *path, const tc_read_options *options, bool keep, uint64_t known,
+                              tc_error *err)
 {
     json_t *request = json_object();
     int bad = !request;
@@ -244,8 +244,7 @@ static tc_status make_mesh(tc_mesh **out, const char *path, const tc_reply *repl
                              .tet = tet->data,
                              .field_name = text_of(reply->json, "field")};
     tc_mesh *mesh = NULL;
-    tc_status status =
-        find_scalar(&arrays.scalar, &arrays.association, reply, arrays.n_vertex, arrays.n_tet, err);
+    tc_status status = find_scalar(&arrays.scalar, &arrays.association, reply, arrays.n_vertex, arrays.n_tet, err);
     if (!status)
         status = tc_mesh_create(&mesh, &arrays, err);
     if (!status)

@@ -157,10 +157,10 @@ static int tc_picture_write(tc_render_run *run, tc_frames *frames, tc_talk *talk
     if (options->background.there)
         tc_image_background(run->image, options->background.rgba);
     double start = tc_talk_clock_s();
-    tc_status status = frames->writer
-                           ? tc_image_writer_save(frames->writer, run->image, options->output, meta.pair, meta.n,
-                                                  &talk->log, &err)
-                           : tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
+    tc_status status =
+        frames->writer
+            ? tc_image_writer_save(frames->writer, run->image, options->output, meta.pair, meta.n, &talk->log, &err)
+            : tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
     run->ms_write = 1e3 * (tc_talk_clock_s() - start);
     tc_meta_finish(&meta);
     return status ? tc_talk_status(talk, status, &err) : -1;

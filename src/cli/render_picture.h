@@ -9,12 +9,13 @@ typedef struct tc_frames {
     tc_renderer_options make;
     tc_renderer_start *start; /* until renderer is there */
     tc_renderer *renderer;
-    tc_image_writer *writer; /* NULL: pictures start one each */
+    tc_image_writer *writer;                      /* NULL: pictures start one each */
     double *frame, *first_hit, *march, *readback; /* [repeat] each, one block */
 } tc_frames;
 
-/* Room for the times of --repeat. Begins what needs no mesh: the renderer, which tc_render_ready waits for, and the program
- * that writes pictures; finish ends what is there of them. -1, or the exit code of an error that was printed. */
+/* Room for the times of --repeat. Begins what needs no mesh: the renderer, which tc_render_ready waits for, and the
+ * program that writes pictures; finish ends what is there of them. -1, or the exit code of an error that was printed.
+ */
 int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *talk);
 void tc_frames_finish(tc_frames *frames);
 
@@ -23,8 +24,8 @@ void tc_source_notes_say(const tc_mesh *mesh, const char *input, tc_talk *talk);
 /* Says how many values and points are not finite. */
 void tc_nonfinite_say(const tc_render_run *run, tc_talk *talk);
 
-/* Makes run's transfer function over range, the scalars of the data, its camera over the report's bounds, its options, and
- * the renderer. -1 to go on, else an exit code. */
+/* Makes run's transfer function over range, the scalars of the data, its camera over the report's bounds, its options,
+ * and the renderer. -1 to go on, else an exit code. */
 int tc_render_ready(tc_render_run *run, tc_frames *frames, const double range[2], tc_talk *talk);
 /* Renders, verifies and writes the picture and the image of errors. -1 to go on, else an exit code; run->measured says
  * whether there are numbers all the same. */

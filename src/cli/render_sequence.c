@@ -121,7 +121,8 @@ static int tc_names_check(const tc_sequence *s, tc_talk *talk)
     return code;
 }
 
-/* ------------------------------------------------------------------------------------------ one step after the other */
+/* ------------------------------------------------------------------------------------------ one step after the other
+ */
 
 /* The mesh takes the values of step i, or is replaced. */
 static int tc_step_read(tc_sequence *s, size_t i, tc_talk *talk)

@@ -16,8 +16,8 @@ typedef struct tc_step_range {
 /* "FROM:TO", "FROM:", ":TO", ":" with ":STRIDE" behind. False when text is none of them; why [64] may say more. */
 bool tc_step_range_parse(tc_step_range *out, const char *text, char *why);
 
-/* The steps of a file with n_time of them (0: one, number 0), ascending. step [capacity] gets as many as fit; the count is
- * given back, 0 when there is none; why [capacity_why] says so then. */
+/* The steps of a file with n_time of them (0: one, number 0), ascending. step [capacity] gets as many as fit; the count
+ * is given back, 0 when there is none; why [capacity_why] says so then. */
 size_t tc_step_range_list(int *step, size_t capacity, const tc_step_range *range, size_t n_time, char *why,
                           size_t capacity_why);
 

@@ -1,7 +1,7 @@
 /* bench_values: new values on a mesh that is set up (tc_mesh_set_scalar, packing, upload) against setting it up
  * (tc_mesh_prepare, packing, upload), of points and of cells, in medians that are taken in turn.
- * Usage: bench_values [--json] [TETS [RUNS]]; default 1000000 tets, 5 runs. A picture of 8 x 8 pixels makes the renderer
- * pack and upload; its own time is not counted. */
+ * Usage: bench_values [--json] [TETS [RUNS]]; default 1000000 tets, 5 runs. A picture of 8 x 8 pixels makes the
+ * renderer pack and upload; its own time is not counted. */
 #define _POSIX_C_SOURCE 200809L
 #include "tetcast.h"
 
@@ -124,14 +124,16 @@ int main(int argc, char **argv)
     }
     double set_up = median(t.set_up, runs), points = median(t.points, runs), cells = median(t.cells, runs);
     if (json)
-        printf("{\"tets\": %zu, \"runs\": %d, \"ms_set_up\": %.3f, \"ms_point_values\": %.3f, \"ms_cell_values\": %.3f, "
-               "\"ratio_point_values\": %.5f, \"ratio_cell_values\": %.5f}\n",
-               report.n_tet, runs, set_up, points, cells, points / set_up, cells / set_up);
+        printf(
+            "{\"tets\": %zu, \"runs\": %d, \"ms_set_up\": %.3f, \"ms_point_values\": %.3f, \"ms_cell_values\": %.3f, "
+            "\"ratio_point_values\": %.5f, \"ratio_cell_values\": %.5f}\n",
+            report.n_tet, runs, set_up, points, cells, points / set_up, cells / set_up);
     else
-        printf("%zu tets, medians of %d, milliseconds\n%-34s %9.2f\n%-34s %9.2f  %5.2f %% of it\n%-34s %9.2f  %5.2f %% of "
-               "it\n",
-               report.n_tet, runs, "set-up: prepare, pack, upload", set_up, "new values of points", points,
-               100 * points / set_up, "new values of cells", cells, 100 * cells / set_up);
+        printf(
+            "%zu tets, medians of %d, milliseconds\n%-34s %9.2f\n%-34s %9.2f  %5.2f %% of it\n%-34s %9.2f  %5.2f %% of "
+            "it\n",
+            report.n_tet, runs, "set-up: prepare, pack, upload", set_up, "new values of points", points,
+            100 * points / set_up, "new values of cells", cells, 100 * cells / set_up);
     tc_transfer_destroy(&tf);
     tc_renderer_destroy(&renderer);
     return 0;

@@ -19,11 +19,12 @@ static void a_range_is_misread(void **state)
         int n_time;
         const char *steps; /* "": refused */
     } row[] = {
-        {"2:4", 10, "2 3 4"}, {":2", 10, "0 1 2"},   {"8:", 10, "8 9"},      {":", 3, "0 1 2"},
-        {"-2:", 10, "8 9"},   {":-9", 10, "0 1"},    {"0:9:4", 10, "0 4 8"}, {"::5", 10, "0 5"},
-        {"3:3", 10, "3"},     {"-3:-2", 10, "7 8"},  {":", 0, "0"},          {"0:0", 0, "0"},
-        {"1:", 0, ""},        {"4:2", 10, ""},       {":10", 10, ""},        {"-11:", 10, ""},
-        {"0:2147483647", 3, ""}, {"1:9:2147483647", 10, "1"},
+        {"2:4", 10, "2 3 4"},   {":2", 10, "0 1 2"},     {"8:", 10, "8 9"},
+        {":", 3, "0 1 2"},      {"-2:", 10, "8 9"},      {":-9", 10, "0 1"},
+        {"0:9:4", 10, "0 4 8"}, {"::5", 10, "0 5"},      {"3:3", 10, "3"},
+        {"-3:-2", 10, "7 8"},   {":", 0, "0"},           {"0:0", 0, "0"},
+        {"1:", 0, ""},          {"4:2", 10, ""},         {":10", 10, ""},
+        {"-11:", 10, ""},       {"0:2147483647", 3, ""}, {"1:9:2147483647", 10, "1"},
     };
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         tc_step_range range;
@@ -39,7 +40,8 @@ static void a_range_is_misread(void **state)
         assert_string_equal(text, row[i].steps);
         assert_int_equal(n == 0, strlen(why) > 10);
     }
-    static const char *const wrong[] = {"", "3", "a:b", "1:2:3:4", "1:2:", "1:2:0", "1:2:-1", " 1:2", "1: 2", "+1:2", "1.5:2", "1:99999999999"};
+    static const char *const wrong[] = {"",       "3",    "a:b",  "1:2:3:4", "1:2:",  "1:2:0",
+                                        "1:2:-1", " 1:2", "1: 2", "+1:2",    "1.5:2", "1:99999999999"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         tc_step_range range;
         char why[64];
@@ -97,7 +99,8 @@ static void a_name_that_does_not_fit_is_cut(void **state)
         for (int k = 0; k < 2; k++) {
             char *name = malloc(capacity), why[256]; /* so that what is written behind it is seen */
             assert_non_null(name);
-            bool good = tc_step_name(name, capacity, k ? "abc{step:012d}.png" : "abcdefghijk.png", 1, 0, why, sizeof why);
+            bool good =
+                tc_step_name(name, capacity, k ? "abc{step:012d}.png" : "abcdefghijk.png", 1, 0, why, sizeof why);
             assert_int_equal(good, capacity > (k ? 19 : 20));
             if (good)
                 assert_string_equal(name, k ? "abc000000000001.png" : "abcdefghijk_0001.png");

@@ -1,5 +1,5 @@
-/* test_suite_values.c: new values on a mesh that a renderer holds: the picture is that of a fresh mesh with these values,
- * bit for bit, and nothing but the values is sent. */
+/* test_suite_values.c: new values on a mesh that a renderer holds: the picture is that of a fresh mesh with these
+ * values, bit for bit, and nothing but the values is sent. */
 #include "suite.h"
 
 #include <stdio.h>
@@ -9,9 +9,9 @@
 enum { SIZE = 40, KINDS = 8 };
 
 typedef struct scene {
-    tc_mesh *mesh;        /* prepared once */
+    tc_mesh *mesh;         /* prepared once */
     tc_renderer *renderer; /* that holds it */
-    tc_mesh_report made;  /* before it was prepared: lengths of values */
+    tc_mesh_report made;   /* before it was prepared: lengths of values */
     double *value;
 } scene;
 
@@ -66,8 +66,11 @@ static tc_association fill(const scene *s, int kind)
 
 static tc_image *render(tc_render_stats *stats, const scene *s, const tc_mesh *mesh, tc_integrator integrator)
 {
-    static const tc_knot knot[] = {
-        {-70, 0.1, 0.2, 0.9, 0.1}, {0, 0.2, 0.3, 0.8, 0.05}, {0.45, 0.9, 0.8, 0.7, 1}, {1, 0.8, 0.1, 0.2, 3}, {1e4, 0.3, 0.9, 0.4, 9}};
+    static const tc_knot knot[] = {{-70, 0.1, 0.2, 0.9, 0.1},
+                                   {0, 0.2, 0.3, 0.8, 0.05},
+                                   {0.45, 0.9, 0.8, 0.7, 1},
+                                   {1, 0.8, 0.1, 0.2, 3},
+                                   {1e4, 0.3, 0.9, 0.4, 9}};
     tc_transfer *tf = suite_function(knot, sizeof knot / sizeof *knot);
     tc_camera camera = suite_camera(mesh, 0.4, 0.5, 1, false);
     tc_render_options options = suite_options(SIZE, SIZE);
@@ -143,12 +146,13 @@ static void more_than_the_values_is_sent(void **state)
     }
 }
 
-/* Where nearly all points have one value cells cross few knots of the function; with values at random they cross many. */
+/* Where nearly all points have one value cells cross few knots of the function; with values at random they cross many.
+ */
 static void an_integrator_is_chosen_by_the_values_before(void **state)
 {
     const scene *s = *state;
-    static const tc_knot knot[] = {{0, 1, 0, 0, 0.01}, {0.3, 1, 0.1, 0, 0.03}, {0.5, 1, 0.3, 0, 0.02},
-                                   {0.7, 1, 0.1, 0, 0.03}, {0.8, 1, 0, 0, 0.01}, {1, 1, 0, 0, 0.04}};
+    static const tc_knot knot[] = {{0, 1, 0, 0, 0.01},     {0.3, 1, 0.1, 0, 0.03}, {0.5, 1, 0.3, 0, 0.02},
+                                   {0.7, 1, 0.1, 0, 0.03}, {0.8, 1, 0, 0, 0.01},   {1, 1, 0, 0, 0.04}};
     char first[2][288];
     tc_transfer *tf = suite_function(knot, sizeof knot / sizeof *knot);
     tc_camera camera = suite_camera(s->mesh, 0.4, 0.5, 1, false);

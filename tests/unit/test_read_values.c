@@ -21,7 +21,8 @@ static void make_grid(grid *g, double shift)
     add_cell(g, 10, 4, (const int[]){2, 3, 7, 12});
 }
 
-/* A file of that grid, whose point array P is `base` plus 1 a point and whose cell array C is `base` times 10 plus 1 a cell. */
+/* A file of that grid, whose point array P is `base` plus 1 a point and whose cell array C is `base` times 10 plus 1 a
+ * cell. */
 static void write_step(const char *path, const grid *g, double base)
 {
     char points[2048], cells[1024];
@@ -193,8 +194,10 @@ static void a_seam_that_opens_keeps_one_value(void **state)
     const int twin = add_point(&g, g.point[7][0], g.point[7][1], g.point[7][2]);
     g.id[g.n_id - 2] = twin;
     const char *closed = scratch("closed.vtu"), *open = scratch("open.vtu");
-    write_vtu(closed, &g, "<DataArray type=\"Float64\" Name=\"P\" format=\"ascii\">0 0 0 0 0 0 0 5 0 0 0 0 1 5</DataArray>", "");
-    write_vtu(open, &g, "<DataArray type=\"Float64\" Name=\"P\" format=\"ascii\">0 0 0 0 0 0 0 5 0 0 0 0 1 6</DataArray>", "");
+    write_vtu(closed, &g,
+              "<DataArray type=\"Float64\" Name=\"P\" format=\"ascii\">0 0 0 0 0 0 0 5 0 0 0 0 1 5</DataArray>", "");
+    write_vtu(open, &g,
+              "<DataArray type=\"Float64\" Name=\"P\" format=\"ascii\">0 0 0 0 0 0 0 5 0 0 0 0 1 6</DataArray>", "");
     tc_mesh *mesh = read_prepared(closed, (tc_read_options){0}, true), *moved = NULL;
     assert_int_equal(mesh->report.merged_vertices, 1);
     assert_int_equal(tc_mesh_read_values(&moved, mesh, open, NULL, NULL, NULL), TC_E_MOVED);
