@@ -6,6 +6,7 @@
 #include "core/room.h"
 #include "transfer_functions/place.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,6 +85,21 @@ static void find_frame(tc_pack *pack, const box *part, size_t n_part)
 static float map_scalar(double x, double lo, double hi)
 {
     return isfinite(x) ? (float)tc_place(x, lo, hi) : NAN;
+}
+
+/* map_scalar of n values; in lanes where the range is an ordinary one. */
+static void map_scalars(float *out, const double *value, size_t n, double lo, double hi)
+{
+    const double width = hi - lo;
+    if (!(width > 0) || !isfinite(width)) {
+        for (size_t i = 0; i < n; i++)
+            out[i] = map_scalar(value[i], lo, hi);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        float place = (float)((value[i] - lo) / width);
+        out[i] = fabs(value[i]) <= DBL_MAX ? place : NAN;
+    }
 }
 
 static void vertex_range(void *context, size_t begin, size_t end, int worker)
@@ -232,12 +248,11 @@ static void extent_range(void *context, size_t begin, size_t end, int worker)
     for (size_t i = begin; i < end; i += LANES) {
         size_t n = end - i < LANES ? end - i : LANES;
         load_lanes(&l, pack->vertex, j->mesh->tet + 4 * i, n);
-        for (size_t c = 0; c < n && pack->cell_scalar; c++) {
-            float value = map_scalar(j->mesh->scalar[i + c], pack->scalar_lo, pack->scalar_hi);
-            pack->cell_scalar[i + c] = value;
+        if (pack->cell_scalar)
+            map_scalars(pack->cell_scalar + i, j->mesh->scalar + i, n, pack->scalar_lo, pack->scalar_hi);
+        for (size_t c = 0; c < n && pack->cell_scalar; c++)
             for (int k = 0; k < 4; k++)
-                l.vertex[k][c][3] = value;
-        }
+                l.vertex[k][c][3] = pack->cell_scalar[i + c];
         measure_lanes(&l);
         for (size_t c = 0; c < n; c++)
             if (!isnan(l.edge_range[c]))

@@ -2,6 +2,7 @@
 #include "mesh/mesh.h"
 
 #include "core/memory.h"
+#include "core/parallel.h"
 #include "core/worker.h"
 #include "mesh/repair.h"
 
@@ -141,6 +142,23 @@ static tc_status scatter_points(double *value, const tc_mesh *m, const double *s
     return status;
 }
 
+typedef struct scatter {
+    double *value;
+    const double *scalar;
+    const int32_t *to; /* each but -1 once; NULL: as they are */
+} scatter;
+
+static void scatter_cells(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const scatter *j = context;
+    for (size_t s = begin; s < end; s++) {
+        int32_t t = j->to ? j->to[s] : (int32_t)s;
+        if (t >= 0)
+            j->value[t] = j->scalar[s];
+    }
+}
+
 tc_status tc_mesh_set_scalar(tc_mesh *m, const double *scalar, tc_association association, tc_error *err)
 {
     if (!m || !scalar)
@@ -149,7 +167,9 @@ tc_status tc_mesh_set_scalar(tc_mesh *m, const double *scalar, tc_association as
         return tc_fail(err, TC_E_ARG, "tc_mesh_set_scalar: association %d is neither TC_POINT_DATA nor TC_CELL_DATA",
                        (int)association);
     size_t n = association == TC_CELL_DATA ? m->n_tet : m->n_vertex;
-    double *value = tc_calloc(n, sizeof *value);
+    /* values of cells cannot be refused, so they may take the place of the old ones */
+    bool in_place = association == TC_CELL_DATA && m->association == TC_CELL_DATA;
+    double *value = in_place ? m->scalar : tc_calloc(n, sizeof *value);
     if (!value)
         return tc_fail_memory(err, "new values", n, sizeof *value);
     if (association == TC_POINT_DATA) {
@@ -159,13 +179,11 @@ tc_status tc_mesh_set_scalar(tc_mesh *m, const double *scalar, tc_association as
             return status;
         }
     } else {
-        for (size_t s = 0; s < m->n_tet_source; s++) {
-            int32_t t = m->tet_of_source ? m->tet_of_source[s] : (int32_t)s;
-            if (t >= 0)
-                value[t] = scalar[s];
-        }
+        scatter j = {value, scalar, m->tet_of_source};
+        tc_parallel_for(m->n_tet_source, 1 << 14, 0, scatter_cells, &j);
     }
-    free(m->scalar);
+    if (!in_place)
+        free(m->scalar);
     m->scalar = value;
     m->association = association;
     m->scalar_serial = tc_mesh_new_serial();
