@@ -1,4 +1,5 @@
-// fetch.glsl: one texel of a buffer texture, by the way that is cheap here.
+// fetch.glsl: one texel of a buffer texture, or a uniform, by the way that is cheap here.
+//
 // llvmpipe makes a function call of texelFetch, around which every register is saved, but loads images in line.
 #ifdef SOFTWARE
 #define FETCH_BUFFER(unit) layout(rgba32f, binding = unit) readonly restrict uniform imageBuffer
@@ -10,3 +11,17 @@
 #define fetch(buffer, i) texelFetch(buffer, i)
 #endif
 #define FETCH_IBUFFER(unit) FETCH_INTS(unit, r32i)
+
+// What a loop reads of uniforms is read once, before it, and kept: llvmpipe gathers a uniform lane by lane, at each place
+// that reads it. A mere copy would not do, for compilers put the uniform in its place again. Floats are above KEEP_LEAST; ints, not
+// negative.
+#ifdef SOFTWARE
+const float KEEP_LEAST = -3.0e38;
+int keep(int x) { return max(x, 0); }
+float keep(float x) { return max(x, KEEP_LEAST); }
+vec2 keep(vec2 x) { return max(x, KEEP_LEAST); }
+vec3 keep(vec3 x) { return max(x, KEEP_LEAST); }
+vec4 keep(vec4 x) { return max(x, KEEP_LEAST); }
+#else
+#define keep(x) (x)
+#endif

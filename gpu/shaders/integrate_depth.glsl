@@ -1,5 +1,6 @@
 // integrate_depth.glsl: what the integrators share that sum optical depth.
 // Depth is summed, not transmittance multiplied: exp() errs once per ray, not once per segment.
+#include "fetch.glsl"
 
 struct Gathered {
     vec3 rgb;

@@ -13,6 +13,9 @@ uniform vec2 tf_grid;     // intervals, a power of two, and the length of one: t
 uniform vec3 tf_octave;   // l → octaves of the length axis; those → texture coordinate v * .y + .z
 uniform vec3 tf_most;     // largest r, g, b of the function
 
+vec2 kept_texel[2] = vec2[](vec2(0.0), vec2(0.0));
+vec3 kept_octave = vec3(0.0), kept_most = vec3(0.0);
+
 struct TfSample {
     float x;
     vec4 sum, rest; // integral of (tau rgb, tau) up to x: sum + rest
@@ -58,13 +61,17 @@ vec4 tf_sample(float s, out TfSample f)
 // from there on, so that the exponent and the mantissa together count them.
 float tf_length(float l)
 {
-    float v = l * tf_octave.x;
+    float v = l * kept_octave.x;
     float octaves = float(floatBitsToInt(v) - 0x3f800000) * (1.0 / 8388608.0) + 1.0;
-    return (v < 1.0 ? v : octaves) * tf_octave.y + tf_octave.z;
+    return (v < 1.0 ? v : octaves) * kept_octave.y + kept_octave.z;
 }
 
 Integral integral_begin(vec4 color, float s)
 {
+    kept_texel[0] = keep(tf_texel[0]);
+    kept_texel[1] = keep(tf_texel[1]);
+    kept_octave = keep(tf_octave);
+    kept_most = keep(tf_most);
     Integral i;
     i.gathered = gathered_begin(color);
     tf_sample(s, i.front);
@@ -85,9 +92,9 @@ void integral_add(inout Integral i, float s, float l)
     float dx = back.x - i.front.x;
     vec4 between = ((back.sum - i.front.sum) + (back.rest - i.front.rest)) * (1.0 / (dx == 0.0 ? 1.0 : dx));
     vec4 mean = dx == 0.0 ? around : between;
-    vec2 at = vec2(i.front.x, back.x) * vec2(tf_texel[0].x, tf_texel[1].x) + vec2(tf_texel[0].y, tf_texel[1].y);
+    vec2 at = vec2(i.front.x, back.x) * vec2(kept_texel[0].x, kept_texel[1].x) + vec2(kept_texel[0].y, kept_texel[1].y);
     vec3 drift = textureLod(tf_table, vec3(at, tf_length(l)), 0.0).rgb;
-    vec3 color = clamp(mean.rgb * (mean.a > 1.0e-37 ? 1.0 / mean.a : 0.0) + drift, vec3(0.0), tf_most);
+    vec3 color = clamp(mean.rgb * (mean.a > 1.0e-37 ? 1.0 / mean.a : 0.0) + drift, vec3(0.0), kept_most);
     gathered_add(i.gathered, color, max(l * mean.a, 0.0));
     i.front = back;
 }

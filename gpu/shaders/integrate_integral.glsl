@@ -32,6 +32,15 @@ uniform float tf_split;
 const float SPLIT_MOST = 256.0;
 #endif
 
+vec4 kept_mean = vec4(0.0);
+float kept_near = 0.0;
+#ifdef TF_SPLIT
+float kept_split = 0.0;
+#endif
+#ifdef TF_HARD
+vec4 kept_hard = vec4(0.0);
+#endif
+
 struct TfSample {
     float x;
 #ifdef TF_EXTEND
@@ -80,6 +89,14 @@ TfSample tf_sample(float s)
 
 Integral integral_begin(vec4 color, float s)
 {
+    kept_mean = keep(tf_mean);
+    kept_near = keep(tf_near);
+#ifdef TF_SPLIT
+    kept_split = keep(tf_split);
+#endif
+#ifdef TF_HARD
+    kept_hard = keep(tf_hard);
+#endif
     Integral i;
     i.sum = gathered_begin(color);
     i.front = tf_sample(s);
@@ -99,13 +116,13 @@ void integral_enter(inout Integral i, float s)
 vec4 tf_mean_between(TfSample front, TfSample back, out float rounding)
 {
     float dx = back.x - front.x;
-    bool near = abs(dx) < tf_near;
+    bool near = abs(dx) < kept_near;
 #ifdef TF_EXTEND
     near = near || front.beyond * back.beyond > 0.0; // constant there
 #endif
-    vec4 ends = tf_mean + 0.5 * (front.point + back.point);
+    vec4 ends = kept_mean + 0.5 * (front.point + back.point);
     rounding = 1.0 / (near ? 1.0 : dx);
-    vec4 between = tf_mean + (back.cumulative - front.cumulative) * rounding;
+    vec4 between = kept_mean + (back.cumulative - front.cumulative) * rounding;
     return near ? ends : between;
 }
 
@@ -121,9 +138,9 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float l, float r
     drift = k * (color * (back.point.a - i.front.point.a) - (back.point.rgb - i.front.point.rgb));
 #endif
 #ifdef TF_HARD
-    float slope = mean.a > 0.0 ? abs(rounding) * tf_hard.z - mean.a * tf_hard.w : 0.0;
-    float most = max(max(abs(drift.r), abs(drift.g)), max(abs(drift.b), l * max(abs(mean.a) * tf_hard.y, slope)));
-    bool hard = !(most <= tf_hard.x) || max(i.front.point.a, back.point.a) > TF_LEFT_OUT, add = l > 0.0 && !hard;
+    float slope = mean.a > 0.0 ? abs(rounding) * kept_hard.z - mean.a * kept_hard.w : 0.0;
+    float most = max(max(abs(drift.r), abs(drift.g)), max(abs(drift.b), l * max(abs(mean.a) * kept_hard.y, slope)));
+    bool hard = !(most <= kept_hard.x) || max(i.front.point.a, back.point.a) > TF_LEFT_OUT, add = l > 0.0 && !hard;
     t = add ? t : 0.0;
     color = add ? color : vec3(0.0);
     drift = add ? drift : vec3(0.0);
@@ -147,8 +164,8 @@ void integral_add(inout Integral i, float s, float l)
     float rounding;
     vec4 mean = tf_mean_between(i.front, back, rounding);
 #ifdef TF_SPLIT
-    if (l * mean.a > tf_split) {
-        float n = min(ceil(l * mean.a / tf_split), SPLIT_MOST), x = i.front.x, part = l / n;
+    if (l * mean.a > kept_split) {
+        float n = min(ceil(l * mean.a / kept_split), SPLIT_MOST), x = i.front.x, part = l / n;
         for (float k = 1.0; k < n; k += 1.0) {
             TfSample middle = tf_sample_at(mix(x, back.x, k / n));
             vec4 share = tf_mean_between(i.front, middle, rounding);
@@ -195,7 +212,7 @@ void integral_stop(inout Integral i, float s)
 #ifdef TF_HARD
     vec3 color = place_at(tf_place(s)).front.rgb;
 #else
-    vec4 here = tf_mean + tf_sample(s).point;
+    vec4 here = kept_mean + tf_sample(s).point;
     vec3 color = here.a > 1.0e-37 ? here.rgb / here.a : vec3(0.0);
 #endif
     gathered_absorb_half(i.sum, color);

@@ -1,9 +1,12 @@
 // integrate_table.glsl: a segment's colour and opacity from the three-dimensional pre-integrated table
 // (Röttger et al. 2000; Weiler et al. 2003, 3.3 and 4; transfer_functions/table.h).
+#include "fetch.glsl"
 
 uniform sampler3D tf_table;      // associated colour and opacity over (front, back, length)
 uniform vec2 tf_map;             // scalar → x = s * tf_map.x + tf_map.y in [0, 1]
 uniform vec2 tf_texel[3];        // x front, x back, length in unit distances → texture coordinate v * .x + .y
+
+vec2 kept_map = vec2(0.0), kept_texel[3] = vec2[](vec2(0.0), vec2(0.0), vec2(0.0));
 
 struct Integral {
     vec4 color; // rgb, transmittance
@@ -13,12 +16,15 @@ struct Integral {
 vec3 tf_coordinate(float front, float back, float l)
 {
     // max() and min() drop a NaN, of a cell that contributes nothing.
-    vec2 x = clamp(vec2(front, back) * tf_map.x + tf_map.y, 0.0, 1.0);
-    return vec3(x.x * tf_texel[0].x + tf_texel[0].y, x.y * tf_texel[1].x + tf_texel[1].y, l * tf_texel[2].x + tf_texel[2].y);
+    vec2 x = clamp(vec2(front, back) * kept_map.x + kept_map.y, 0.0, 1.0);
+    return vec3(x.x * kept_texel[0].x + kept_texel[0].y, x.y * kept_texel[1].x + kept_texel[1].y, l * kept_texel[2].x + kept_texel[2].y);
 }
 
 Integral integral_begin(vec4 color, float s)
 {
+    kept_map = keep(tf_map);
+    for (int k = 0; k < 3; k++)
+        kept_texel[k] = keep(tf_texel[k]);
     return Integral(color, s);
 }
 

@@ -9,7 +9,9 @@ uniform float length_unit;         // half diagonals → unit distances
 uniform float transmittance_stop;  // a ray ends at or below
 #ifdef NAN_COLOR
 uniform vec4 nan_color; // of cells with a value that is not finite: r, g, b, attenuation per unit distance
+vec4 march_nan_color = vec4(0.0);
 #endif
+float march_unit = 0.0, march_least = 0.0; // length_unit, transmittance_stop
 #ifdef AUDIT
 struct Audit {
     float length, real;
@@ -82,21 +84,21 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
     // its vertices.
     if (isnan(segment.s0) || isnan(segment.s1)) {
 #ifdef NAN_COLOR
-        integral_add_constant(integral, nan_color, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
+        integral_add_constant(integral, march_nan_color, segment.real ? (segment.z1 - segment.z0) * march_unit : 0.0);
 #endif
         segment.real = false;
         segment.s1 = isnan(segment.s1) ? 0.0 : segment.s1;
         integral_enter(integral, segment.s1);
     }
 #endif
-    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * length_unit : 0.0);
+    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * march_unit : 0.0);
 }
 
 // Ends the ray where it is opaque.
 void march_stop(inout Walk w, Integral integral, inout vec2 stop)
 {
     // Carried from round to round: what each round makes anew llvmpipe keeps, behind the loop, as the last lane left it.
-    bool stops = w.cell >= 0 && integral_transmittance(integral) <= transmittance_stop;
+    bool stops = w.cell >= 0 && integral_transmittance(integral) <= march_least;
     stop = stops ? vec2(w.s, 1.0) : stop;
     w.cell = stops ? -2 : w.cell;
 }
@@ -105,6 +107,13 @@ void march_stop(inout Walk w, Integral integral, inout vec2 stop)
 // finished, and a, b, c; color: the integrator's; at: depth, scalar. Gives the number of steps.
 int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
 {
+    int most = keep(steps_per_pass);
+    march_unit = keep(length_unit);
+    march_least = keep(transmittance_stop);
+#ifdef NAN_COLOR
+    march_nan_color = keep(nan_color);
+#endif
+    mesh_begin();
     Ray ray = ray_of_pixel(pixel);
     Walk w;
     int facing;
@@ -116,7 +125,7 @@ int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
     int k = 0;
     bool open = false;     // the last step's segment is not all added yet
     vec2 stop = vec2(0.0); // the scalar where the opacity stop ended the ray, and whether it did
-#define GOES_ON (open || w.cell >= 0 && k < steps_per_pass)
+#define GOES_ON (open || w.cell >= 0 && k < most)
     // Loops in one another: what is rare waits in the outer ones until all lanes of a group need it or are done.
 #ifdef TF_HARD
     do {

@@ -14,12 +14,21 @@ FETCH_IBUFFER(0) mesh_cells;
 FETCH_BUFFER(1) mesh_vertices; // x, y, z, scalar
 #ifdef HAS_IMAGINARY
 uniform int mesh_real; // records below are real cells, the others imaginary ones
+int mesh_real_kept = 0;
 #endif
 #ifdef CELL_DATA
 uniform samplerBuffer mesh_cell_scalar;
 #endif
 
 const int MESH_RECORD = 5;
+
+// Before a walk.
+void mesh_begin()
+{
+#ifdef HAS_IMAGINARY
+    mesh_real_kept = keep(mesh_real);
+#endif
+}
 
 // Int i of all records. A buffer texture has so many texels: where records are more, 2 or 4 ints (CELL_INTS) share a texel.
 int mesh_int(int i)
@@ -51,7 +60,7 @@ int mesh_neighbour(int cell, int dropped, ivec3 face)
 bool mesh_is_real(int cell)
 {
 #ifdef HAS_IMAGINARY
-    return cell < mesh_real;
+    return cell < mesh_real_kept;
 #else
     return true;
 #endif

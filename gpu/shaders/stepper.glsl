@@ -24,8 +24,8 @@ struct Walk {
     vec4 a, b, c;  // projected: x, y across, z along the ray, and the scalar
     vec3 weight;   // crosses (b,c), (c,a), (a,b), all positive: the ray's barycentric coordinates in the face
     float z, s;    // depth and scalar where the ray meets the face
-    int ahead;     // the cell's fourth vertex and its record, fetched before they are needed: memory is slow
-    vec4 ahead_vertex;
+    int ahead;     // the cell's fourth vertex
+    vec4 ahead_vertex; // its record, fetched before it is needed, for memory is slow; from a step to walk_fast alone
     vec4 d;        // the fourth vertex, projected
     vec3 cross_d;  // crosses (d,a), (d,b), (d,c)
 };
@@ -86,6 +86,7 @@ bool walk_face(out Walk w, Ray ray, int cell, ivec3 id, out int facing)
 // Looks at the cell ahead, exactly.
 void walk_exact(inout Walk w, Ray ray)
 {
+    w.ahead_vertex = fetch(mesh_vertices, w.ahead);
     w.d = vec4(ray_project(ray, w.ahead_vertex.xyz), w.ahead_vertex.w);
     w.cross_d = vec3(sign_cross(w.d.xy, w.a.xy, w.ahead, w.id.x), sign_cross(w.d.xy, w.b.xy, w.ahead, w.id.y),
                      sign_cross(w.d.xy, w.c.xy, w.ahead, w.id.z));
@@ -128,8 +129,10 @@ Segment walk_step(inout Walk w, Ray ray)
 
     // The exit face keeps two entry vertices and d, which takes the dropped one's place: (a,b,d), (a,d,c), else (d,b,c).
     // Two signs choose. Selections, not branches: lanes of one group differ here.
-    bool drop_c = da > 0.0 && db < 0.0;
-    bool drop_b = da < 0.0 && dc > 0.0;
+    // None of the crosses is zero or NaN, so the signs are their first bits.
+    int a = floatBitsToInt(da), b = floatBitsToInt(db), c = floatBitsToInt(dc);
+    bool drop_c = (~a & b) < 0;
+    bool drop_b = (a & ~c) < 0;
     bool drop_a = !drop_b && !drop_c;
     int dropped = drop_c ? w.id.z : drop_b ? w.id.y : w.id.x;
     w.weight = vec3(drop_c ? -db : drop_b ? dc : w.weight.x, drop_a ? -dc : drop_c ? da : w.weight.y,

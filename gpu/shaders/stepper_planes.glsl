@@ -15,6 +15,7 @@ FETCH_BUFFER(5) planes_normals;     // n(t,i), 1 + f(t,i) (negative: imaginary c
 FETCH_IBUFFER(6) planes_neighbours; // a(t,i), -1: outside
 FETCH_BUFFER(7) planes_scalars;     // at t: g(t) and its offset
 uniform float planes_longest;       // edge of the real cells
+float planes_longest_kept = 0.0;
 
 const int WALK_LOST = -3;           // in place of a cell
 const float PLANES_FAR = 1.0e6;     // "an appropriately large number" (3.3): nothing in the mesh is that far
@@ -37,6 +38,7 @@ struct Segment {
 // Takes up a walk: from the first hit, as the vertices of a boundary face, or from the pass before, as id above.
 bool walk_face(out Walk w, Ray ray, int cell, ivec3 id, out int facing)
 {
+    planes_longest_kept = keep(planes_longest);
     w.cell = cell;
     w.t = cell / MESH_RECORD;
     w.id = id;
@@ -119,7 +121,7 @@ Segment walk_step(inout Walk w, Ray ray)
     // The length is the points' distance, even if the exit lies before the entry, and ends with the table of 3.3, whose
     // last entry is the longest edge.
     segment.z0 = min(w.z, lambda);
-    segment.z1 = segment.real ? min(max(w.z, lambda), segment.z0 + planes_longest) : max(w.z, lambda);
+    segment.z1 = segment.real ? min(max(w.z, lambda), segment.z0 + planes_longest_kept) : max(w.z, lambda);
     segment.s1 = s;
     w.z = lambda;
     w.s = s;

@@ -138,13 +138,12 @@ static const char fragment_text[] = "uniform sampler2D cases;\n"
                                     "    parts = integral_end(i);\n"
                                     "}\n";
 
-/* The integrator's file behind fetch.glsl, and the text above. */
+/* The integrator's file, and the text above. */
 static GLuint make_program(const tc_gl *gl, const char *file, const char *defines)
 {
-    char *head = gl_shader_text("fetch.glsl", defines, NULL), *body = gl_shader_text(file, "", NULL);
-    const char *const text[] = {head, body + strcspn(body, "\n"), fragment_text}; /* without its version's line */
-    GLuint program = gl_screen_program(gl, text, 3);
-    free(head);
+    char *body = gl_shader_text(file, defines, NULL);
+    const char *const text[] = {body, fragment_text};
+    GLuint program = gl_screen_program(gl, text, 2);
     free(body);
     return program;
 }
