@@ -331,12 +331,16 @@ TC_API tc_status tc_image_write(const tc_image *image, const char *path, const t
                                 const tc_log *log, tc_error *err);
 TC_API tc_status tc_image_read(tc_image **out, const char *path, tc_error *err);
 
-/* The program that encodes pictures, started before there is one: it needs 0.2 s to start, which pass while the caller does
- * something else, and serves any number of them. Not for two threads at a time. */
+/* Writes any number of pictures. PNG is encoded in this process; other formats by a helper program, which needs 0.2 s to
+ * start and stays for the next ones. Not for two threads at a time. */
 typedef struct tc_image_writer tc_image_writer;
-/* Starts it and returns at once. Errors: TC_E_WORKER, TC_E_MEMORY. */
+/* Starts nothing. Errors: TC_E_MEMORY. */
 TC_API tc_status tc_image_writer_create(tc_image_writer **out, tc_error *err);
-/* tc_image_write through it; if it died it is started anew. */
+/* Files named like path (a number may differ) are to come: starts the helper program if their format needs it, and
+ * returns at once, so that its start passes while the caller does something else. Errors: TC_E_ARG (extension),
+ * TC_E_WORKER; both are told again by tc_image_writer_save. */
+TC_API tc_status tc_image_writer_expect(tc_image_writer *writer, const char *path, tc_error *err);
+/* tc_image_write through it; a helper that died is started anew. */
 TC_API tc_status tc_image_writer_save(tc_image_writer *writer, const tc_image *image, const char *path,
                                       const tc_text_pair *meta, size_t n, const tc_log *log, tc_error *err);
 TC_API void tc_image_writer_destroy(tc_image_writer **writer);

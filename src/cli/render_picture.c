@@ -28,7 +28,8 @@ int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *ta
     out->readback = out->march + n;
     if (tc_input_is_synthetic(options->input) || access(options->input, R_OK) == 0) {
         tc_renderer_begin(&out->start, &out->make, NULL); /* what fails here is done, and told, when it is needed */
-        tc_image_writer_create(&out->writer, NULL);
+        if (tc_image_writer_create(&out->writer, NULL) == TC_OK)
+            tc_image_writer_expect(out->writer, options->output, NULL);
     }
     return -1;
 }

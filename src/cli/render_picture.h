@@ -14,7 +14,7 @@ typedef struct tc_frames {
 } tc_frames;
 
 /* Room for the times of --repeat. Begins what needs no mesh: the renderer, which tc_render_ready waits for, and the
- * program that writes pictures; finish ends what is there of them. -1, or the exit code of an error that was printed.
+ * program that writes pictures, if their format needs one; finish ends what is there of them. -1, or the exit code of an error that was printed.
  */
 int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *talk);
 void tc_frames_finish(tc_frames *frames);

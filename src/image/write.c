@@ -1,5 +1,5 @@
-/* write.c: image files, by way of the helper program tetcast-image: it encodes and decodes, all access to files is
- * here. */
+/* write.c: image files. PNG is encoded here (png.c); the helper program tetcast-image encodes all else and decodes. All
+ * access to files is here. */
 #define _GNU_SOURCE
 #include "image/writer.h"
 #include "core/file.h"
@@ -7,6 +7,7 @@
 #include "core/wire.h"
 #include "core/worker.h"
 #include "image/image.h"
+#include "image/png.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +17,7 @@
 #include <unistd.h>
 
 struct tc_image_writer {
-    tc_worker *worker; /* NULL after the helper died */
+    tc_worker *worker; /* NULL before there is need of it, and after it died */
 };
 
 typedef enum format { PNG, EXR, TIFF, JPEG, N_FORMAT } format;
@@ -118,15 +119,17 @@ static tc_status call(tc_reply *reply, tc_image_writer *writer, json_t *request,
 
 tc_status tc_image_writer_create(tc_image_writer **out, tc_error *err)
 {
-    tc_image_writer *writer = tc_calloc(1, sizeof *writer);
-    *out = NULL;
-    if (!writer)
-        return tc_fail_memory(err, "an image writer", 1, sizeof *writer);
-    tc_status status = start(writer, err);
-    if (status != TC_OK)
-        tc_image_writer_destroy(&writer);
-    *out = writer;
-    return status;
+    *out = tc_calloc(1, sizeof **out);
+    return *out ? TC_OK : tc_fail_memory(err, "an image writer", 1, sizeof **out);
+}
+
+tc_status tc_image_writer_expect(tc_image_writer *writer, const char *path, tc_error *err)
+{
+    format kind;
+    if (!writer || !path)
+        return tc_fail(err, TC_E_ARG, "tc_image_writer_expect: a writer and a path are needed");
+    tc_status status = choose_format(&kind, path, err);
+    return status == TC_OK && kind != PNG ? start(writer, err) : status;
 }
 
 void tc_image_writer_destroy(tc_image_writer **writer)
@@ -187,6 +190,48 @@ static tc_status check(format *kind, tc_image_encoding *encoding, const tc_image
     return status;
 }
 
+static tc_status put_file(const char *path, const void *data, size_t bytes, tc_error *err)
+{
+    if (strcmp(path, "-") == 0)
+        return tc_file_write(STDOUT_FILENO, data, bytes, "the standard output", err);
+    return tc_file_replace(path, data, bytes, err);
+}
+
+static tc_status write_png(const tc_image *image, const char *path, int bits, const tc_text_pair *meta, size_t n,
+                           const tc_log *log, tc_error *err)
+{
+    tc_png file;
+    tc_status status = tc_png_encode(&file, image, bits, meta, n, log, err);
+    if (status != TC_OK)
+        return tc_fail_prefix(err, status, "%s cannot be written: ", path);
+    status = put_file(path, file.bytes, file.n, err);
+    tc_png_finish(&file);
+    return status;
+}
+
+static tc_status write_by_helper(tc_image_writer *writer, format kind, const tc_image *image, const char *path,
+                                 const tc_image_encoding *how, const tc_text_pair *meta, size_t n, const tc_log *log,
+                                 tc_error *err)
+{
+    tc_reply reply = {0};
+    json_t *request = make_request(kind, image, how, meta, n);
+    if (!request)
+        return tc_fail_memory(err, "the texts of an image", n, 256);
+    size_t count = 4 * (size_t)image->width * (size_t)image->height;
+    const tc_array pixels = {"rgba", TC_F32, count, image->rgba};
+    tc_status status = call(&reply, writer, request, &pixels, log, err);
+    const tc_array *file = status == TC_OK ? tc_reply_array(&reply, "file", TC_U8) : NULL;
+    if (status != TC_OK)
+        tc_fail_prefix(err, status, "%s cannot be written: ", path);
+    else if (!file || file->count == 0)
+        status = tc_fail(err, TC_E_WORKER, "%s cannot be written: tetcast-image gave no file", path);
+    else
+        status = put_file(path, file->data, file->count, err);
+    tc_reply_finish(&reply);
+    json_decref(request);
+    return status;
+}
+
 tc_status tc_image_writer_write(tc_image_writer *writer, const tc_image *image, const char *path,
                                 const tc_image_encoding *encoding, const tc_text_pair *meta, size_t n,
                                 const tc_log *log, tc_error *err)
@@ -194,35 +239,14 @@ tc_status tc_image_writer_write(tc_image_writer *writer, const tc_image *image, 
     format kind = PNG;
     tc_image_encoding how = {0};
     size_t glowing = 0, open = 0;
-    tc_reply reply = {0};
-    json_t *request = NULL;
     tc_status status = check(&kind, &how, image, path, encoding, meta, n, err);
     if (status == TC_OK)
         status = check_pixels(&glowing, &open, image, err);
-    if (status != TC_OK)
-        return status;
-    request = make_request(kind, image, &how, meta, n);
-    if (!request)
-        return tc_fail_memory(err, "the texts of an image", n, 256);
-    size_t count = 4 * (size_t)image->width * (size_t)image->height;
-    const tc_array pixels = {"rgba", TC_F32, count, image->rgba};
-    status = call(&reply, writer, request, &pixels, log, err);
-    if (status != TC_OK) {
-        tc_fail_prefix(err, status, "%s cannot be written: ", path);
-        goto done;
-    }
-    const tc_array *file = tc_reply_array(&reply, "file", TC_U8);
-    if (!file || file->count == 0)
-        status = tc_fail(err, TC_E_WORKER, "%s cannot be written: tetcast-image gave no file", path);
-    else if (strcmp(path, "-") == 0)
-        status = tc_file_write(STDOUT_FILENO, file->data, file->count, "the standard output", err);
-    else
-        status = tc_file_replace(path, file->data, file->count, err);
+    if (status == TC_OK)
+        status = kind == PNG ? write_png(image, path, how.bits, meta, n, log, err)
+                             : write_by_helper(writer, kind, image, path, &how, meta, n, log, err);
     if (status == TC_OK)
         warn_of_losses(kind, glowing, open, path, log);
-done:
-    tc_reply_finish(&reply);
-    json_decref(request);
     return status;
 }
 

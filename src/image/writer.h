@@ -1,4 +1,4 @@
-/* writer.h: image files through the helper program tetcast-image, which stays alive for many of them.
+/* writer.h: image files; those that are not PNG through the helper program tetcast-image, which stays alive for many.
  * Pixels are taken and given as they are, in display space: no colour conversion either way. */
 #ifndef TC_IMAGE_WRITER_H
 #define TC_IMAGE_WRITER_H
@@ -17,7 +17,8 @@ typedef struct tc_image_meta {
     tc_text_pair *pair;
 } tc_image_meta;
 
-/* tc_image_write with a helper that is there already. A helper that died is started anew by the next call.
+/* tc_image_write with a helper that is there already, or is started now if the format needs it. One that died is started
+ * anew by the next call.
  * PNG: un-premultiplied in float, then rounded; RGB when every pixel is opaque. JPEG: 4:4:4, over white where not
  * opaque. EXR, TIFF: premultiplied, lossless. meta: keys of 1 to 79 printable ASCII characters, values UTF-8. PNG: text
  * chunks; EXR: attributes "tetcast:KEY"; TIFF and JPEG: one JSON object as ImageDescription (JPEG: at most 60 000

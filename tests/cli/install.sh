@@ -11,8 +11,8 @@ TETCAST=$work/moved/bin/tetcast
 
 run 0 --version
 run 0 synth heatsink --cells 2000 -o sink.vtu
-run 0 render sink.vtu --size 16x16 --reentry convexify -o a.png # needs all three helpers
-there a.png
+run 0 render sink.vtu --size 16x16 --reentry convexify -o a.exr # needs all three helpers
+there a.exr
 
 if [ "${TC_SANITIZE:-OFF}" = ON ]; then
     echo "sanitizers: a plain C program cannot load the library first; that part is left out"

@@ -1,4 +1,4 @@
-/* test_image_write.c: images through tetcast-image and back. */
+/* test_image_write.c: images to files and back. PNG comes back by way of OpenImageIO, which did not write it. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>
@@ -51,7 +51,7 @@ static int group_setup(void **state)
     strcpy(folder, "/tmp/tetcast-test-XXXXXX");
     if (!mkdtemp(folder))
         return -1;
-    if (tc_image_writer_create(&writer, &err) == TC_OK)
+    if (tc_image_writer_create(&writer, &err) == TC_OK && tc_image_writer_expect(writer, "a.exr", &err) == TC_OK)
         return 0;
     fprintf(stderr, "%s\n", err.text);
     return -1;
@@ -172,6 +172,56 @@ static void png_unpremultiplies_after_quantisation(void **state)
         assert_int_equal((int)lrintf(back->rgba[4 * x] / back->rgba[4 * x + 3] * 255), x);
     tc_image_destroy(&back);
     tc_image_destroy(&image);
+}
+
+/* The header's kind of colour: 2 RGB, 6 RGBA; and its bits. */
+static void an_opaque_png_has_alpha_or_bits_are_wrong(void **state)
+{
+    (void)state;
+    tc_image *image = noise(5, 3);
+    for (int round = 0; round < 4; round++) {
+        const float black[4] = {0, 0, 0, 1};
+        const int bits = round % 2 ? 16 : 8;
+        tc_error err = {0};
+        void *data;
+        size_t n;
+        if (round == 2)
+            tc_image_background(image, black);
+        for (int i = 0; i < 15 && round >= 2; i++)
+            image->rgba[4 * i + 3] = 1; /* rounding */
+        must(tc_image_writer_write(writer, image, in_folder("a.png"), &(tc_image_encoding){.bits = bits}, NULL, 0, NULL,
+                                   &err),
+             &err);
+        must(tc_file_read(&data, &n, in_folder("a.png"), &err), &err);
+        assert_true(n > 33);
+        assert_int_equal(((unsigned char *)data)[24], bits);
+        assert_int_equal(((unsigned char *)data)[25], round < 2 ? 6 : 2);
+        free(data);
+    }
+    tc_image_destroy(&image);
+}
+
+/* Every pixel, read back by another library. */
+static void png_rounds_other_than_to_the_nearest_level(void **state)
+{
+    (void)state;
+    for (int bits = 8; bits <= 16; bits += 8) {
+        const double top = bits == 16 ? 65535 : 255;
+        tc_image *image = noise(61, 47), *back;
+        image->rgba[4] = 3, image->rgba[5] = -1, image->rgba[6] = 0.5f, image->rgba[7] = 1.5f; /* beyond 0 and 1 */
+        write_and_read(&back, NULL, image, "a.png", &(tc_image_encoding){.bits = bits}, NULL, 0);
+        for (int i = 0; i < 61 * 47; i++) {
+            const float *p = image->rgba + 4 * i, *q = back->rgba + 4 * i;
+            double alpha = fmin(fmax((double)p[3], 0), 1), slack = 0.5 + 3e-7 * top; /* a float's last digits */
+            assert_true(fabs((double)q[3] * top - alpha * top) <= slack);
+            for (int c = 0; c < 3 && q[3] > 0; c++) {
+                double v = fmin(fmax((double)p[c] / alpha, 0), 1) * top;
+                assert_true(fabs((double)(q[c] / q[3]) * top - v) <= slack);
+            }
+        }
+        tc_image_destroy(&back);
+        tc_image_destroy(&image);
+    }
 }
 
 static void display_colours_are_converted(void **state)
@@ -357,30 +407,66 @@ static void what_is_no_image_is_read(void **state)
     tc_image_destroy(&image);
 }
 
+/* 1 and the first child's id; 0: no child; -1: not known, a kernel without CONFIG_PROC_CHILDREN. */
+static int first_child(int *pid)
+{
+    FILE *children = fopen("/proc/thread-self/children", "r");
+    if (!children)
+        return -1;
+    int found = fscanf(children, "%d", pid);
+    fclose(children);
+    return found == 1;
+}
+
 static void a_helper_that_died_is_not_started_anew(void **state)
 {
     (void)state;
     tc_image *image = noise(8, 8);
     tc_error err = {0};
     int pid = 0;
-    FILE *children = fopen("/proc/thread-self/children", "r");
-    int found = children ? fscanf(children, "%d", &pid) : 0;
-    if (children)
-        fclose(children);
+    int found = first_child(&pid);
     if (found == 1) {
         siginfo_t info;
         kill(pid, SIGKILL);
         waitid(P_PID, (id_t)pid, &info, WEXITED | WNOWAIT);
-        assert_int_equal(tc_image_writer_write(writer, image, in_folder("a.png"), NULL, NULL, 0, NULL, &err),
+        assert_int_equal(tc_image_writer_write(writer, image, in_folder("a.exr"), NULL, NULL, 0, NULL, &err),
                          TC_E_WORKER);
-        assert_non_null(strstr(err.text, "a.png cannot be written: tetcast-image ended with signal 9"));
+        assert_non_null(strstr(err.text, "a.exr cannot be written: tetcast-image ended with signal 9"));
         assert_int_equal(files_in_folder(false), 0);
-        must(tc_image_writer_write(writer, image, in_folder("a.png"), NULL, NULL, 0, NULL, &err), &err);
+        must(tc_image_writer_write(writer, image, in_folder("a.exr"), NULL, NULL, 0, NULL, &err), &err);
         assert_int_equal(files_in_folder(false), 1);
     }
     tc_image_destroy(&image);
     if (found != 1)
-        skip(); /* a kernel without CONFIG_PROC_CHILDREN */
+        skip();
+}
+
+/* In a child of the test, which has no helper yet. */
+static void a_png_starts_a_helper(void **state)
+{
+    (void)state;
+    tc_image *image = noise(8, 8);
+    char *png = strdup(in_folder("a.png")), *exr = strdup(in_folder("a.exr"));
+    pid_t child = fork();
+    if (child == 0) {
+        tc_image_writer *own = NULL;
+        int pid, bad = tc_image_writer_create(&own, NULL) != TC_OK;
+        bad |= (tc_image_writer_expect(own, png, NULL) != TC_OK) << 1;
+        bad |= (tc_image_writer_save(own, image, png, NULL, 0, NULL, NULL) != TC_OK) << 2;
+        bad |= (first_child(&pid) == 1) << 3;
+        bad |= (tc_image_writer_expect(own, exr, NULL) != TC_OK) << 4;
+        bad |= (first_child(&pid) == 0) << 5;
+        bad |= (tc_image_writer_expect(own, "a.bmp", NULL) != TC_E_ARG) << 6;
+        tc_image_writer_destroy(&own);
+        _exit(bad);
+    }
+    int how = 1;
+    assert_int_equal(waitpid(child, &how, 0), child);
+    assert_int_equal(how, 0);
+    assert_int_equal(files_in_folder(false), 1);
+    tc_image_destroy(&image);
+    free(png);
+    free(exr);
 }
 
 /* tc_image_write with "-" in a child whose standard output is a file. */
@@ -416,6 +502,8 @@ int main(void)
         TEST(half_exr_is_worse_than_half),
         TEST(png_is_worse_than_its_quantisation),
         TEST(png_unpremultiplies_after_quantisation),
+        TEST(an_opaque_png_has_alpha_or_bits_are_wrong),
+        TEST(png_rounds_other_than_to_the_nearest_level),
         TEST(display_colours_are_converted),
         TEST(jpeg_is_not_laid_over_white_or_does_not_say_so),
         TEST(glow_without_opacity_vanishes_from_png_silently),
@@ -425,6 +513,7 @@ int main(void)
         TEST(a_full_device_is_not_told),
         TEST(what_is_no_image_is_read),
         TEST(a_helper_that_died_is_not_started_anew),
+        TEST(a_png_starts_a_helper),
         TEST(standard_output_gets_no_png),
     };
     return cmocka_run_group_tests(tests, group_setup, group_teardown);

@@ -1,53 +1,12 @@
 /* png_text.cpp: text chunks of PNG files.
- * PNG specification, second edition (W3C 2003): 5.3 chunk layout, 11.3.4 textual information, annex D CRC. */
+ * PNG specification, second edition (W3C 2003): 5.3 chunk layout, 11.3.4 textual information. */
 #include "image/helper/png_text.h"
 
 #include <cstring>
 
-static uint32_t crc32(const uint8_t *p, size_t n)
-{
-    uint32_t crc = 0xffffffffu;
-    for (size_t i = 0; i < n; i++) {
-        crc ^= p[i];
-        for (int bit = 0; bit < 8; bit++)
-            crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
-    }
-    return ~crc;
-}
-
-static void put_u32(std::vector<uint8_t> &out, uint32_t v)
-{
-    for (int shift = 24; shift >= 0; shift -= 8)
-        out.push_back(static_cast<uint8_t>(v >> shift));
-}
-
 static uint32_t get_u32(const uint8_t *p)
 {
     return uint32_t(p[0]) << 24 | uint32_t(p[1]) << 16 | uint32_t(p[2]) << 8 | p[3];
-}
-
-static bool is_ascii(const std::string &s)
-{
-    for (unsigned char c : s)
-        if (c >= 0x80)
-            return false;
-    return true;
-}
-
-std::vector<uint8_t> png_text_chunks(const text_pairs &pairs)
-{
-    std::vector<uint8_t> out;
-    for (const auto &[key, value] : pairs) {
-        bool ascii = is_ascii(value);
-        std::string body = (ascii ? "tEXt" : "iTXt") + key;
-        body.append(ascii ? 1 : 5, '\0'); /* iTXt: end of key, flag, method, no language, no translated key */
-        body += value;
-        const uint8_t *bytes = reinterpret_cast<const uint8_t *>(body.data());
-        put_u32(out, static_cast<uint32_t>(body.size() - 4));
-        out.insert(out.end(), bytes, bytes + body.size());
-        put_u32(out, crc32(bytes, body.size()));
-    }
-    return out;
 }
 
 static std::string from_latin1(const char *p, size_t n)

@@ -10,10 +10,6 @@
 
 using text_pairs = std::vector<std::pair<std::string, std::string>>;
 
-/* The chunks of all pairs, to be put after the header: tEXt for ASCII, iTXt (not compressed) for other UTF-8. */
-std::vector<uint8_t> png_text_chunks(const text_pairs &pairs);
-/* Where they go: behind the signature and IHDR. */
-constexpr size_t PNG_TEXT_PLACE = 8 + 25;
 /* The tEXt and uncompressed iTXt chunks of a file as UTF-8; stops quietly where the file is broken. */
 text_pairs png_text_read(const uint8_t *file, size_t n);
 

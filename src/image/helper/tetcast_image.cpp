@@ -1,4 +1,4 @@
-/* tetcast_image.cpp: the helper program tetcast-image: encodes and decodes images with OpenImageIO.
+/* tetcast_image.cpp: the helper program tetcast-image: encodes (all but PNG) and decodes images with OpenImageIO.
  * It opens no file of the user: encoded bytes go to the library, which writes them, and come from it. OpenImageIO works
  * on a file without a name by way of /proc/self/fd. */
 #include "core/serve.h"
@@ -115,30 +115,17 @@ struct picture {
     std::vector<uint8_t> bytes;
 };
 
-/* Pixels as un-premultiplied or white-backed integers; rounding is here, not in the writer (which un-premultiplies
- * after quantisation). */
-template <typename T> void quantise(picture &out, const float *rgba, bool over_white)
+/* Pixels over white as bytes. */
+void quantise(picture &out, const float *rgba)
 {
-    const float top = static_cast<float>(static_cast<T>(~T(0)));
     size_t pixels = size_t(out.width) * size_t(out.height);
-    out.bytes.resize(pixels * size_t(out.channels) * sizeof(T));
-    T *to = reinterpret_cast<T *>(out.bytes.data());
-    for (size_t i = 0; i < pixels; i++) {
-        const float *p = rgba + 4 * i;
-        float alpha = std::fmin(std::fmax(p[3], 0.0f), 1.0f);
-        for (int c = 0; c < out.channels; c++) {
-            float v = c == 3 ? alpha : over_white ? p[c] + (1 - alpha) : alpha > 0 ? p[c] / alpha : 0;
-            *to++ = static_cast<T>(std::fmin(std::fmax(v, 0.0f), 1.0f) * top + 0.5f);
-        }
+    out.bytes.resize(pixels * 3);
+    uint8_t *to = out.bytes.data();
+    for (size_t i = 0; i < pixels; i++, rgba += 4) {
+        float alpha = std::fmin(std::fmax(rgba[3], 0.0f), 1.0f);
+        for (int c = 0; c < 3; c++)
+            *to++ = static_cast<uint8_t>(std::fmin(std::fmax(rgba[c] + (1 - alpha), 0.0f), 1.0f) * 255 + 0.5f);
     }
-}
-
-bool opaque(const float *rgba, size_t pixels)
-{
-    for (size_t i = 0; i < pixels; i++)
-        if (rgba[4 * i + 3] < 1)
-            return false;
-    return true;
 }
 
 std::string pairs_as_json(const text_pairs &pairs)
@@ -152,14 +139,12 @@ std::string pairs_as_json(const text_pairs &pairs)
     return text.get();
 }
 
-/* The settings of each format; texts of PNG are added later. */
+/* The settings of each format. */
 ImageSpec make_spec(const std::string &format, const picture &p, int bits, int quality, const text_pairs &pairs,
                     tc_serve *serve)
 {
     ImageSpec spec(p.width, p.height, p.channels, p.type);
-    if (format == "png") {
-        spec.attribute("oiio:UnassociatedAlpha", 1); /* no colour space: it would add a text of its own */
-    } else if (format == "openexr") {
+    if (format == "openexr") {
         spec.set_format(bits == 16 ? TypeDesc::HALF : TypeDesc::FLOAT);
         spec.attribute("compression", "zip");
         for (const auto &[key, value] : pairs)
@@ -191,10 +176,10 @@ bool on_progress(void *context, float fraction)
 }
 
 /* Gives the encoded file as one array. */
-void send_file(tc_serve *serve, const nameless &file, const std::vector<uint8_t> &inserted)
+void send_file(tc_serve *serve, const nameless &file)
 {
     struct stat info;
-    if (fstat(file.fd, &info) != 0 || info.st_size <= static_cast<off_t>(PNG_TEXT_PLACE))
+    if (fstat(file.fd, &info) != 0 || info.st_size < 1)
         throw std::runtime_error("OpenImageIO wrote nothing");
     size_t n = static_cast<size_t>(info.st_size);
     void *map = mmap(nullptr, n, PROT_READ, MAP_PRIVATE, file.fd, 0);
@@ -203,16 +188,6 @@ void send_file(tc_serve *serve, const nameless &file, const std::vector<uint8_t>
     std::unique_ptr<void, std::function<void(void *)>> owner(map, [n](void *p) { munmap(p, n); });
     json_owner result(json_object());
     tc_array array = {"file", TC_U8, n, map};
-    std::vector<uint8_t> whole;
-    if (!inserted.empty()) {
-        const uint8_t *bytes = static_cast<const uint8_t *>(map);
-        whole.reserve(n + inserted.size());
-        whole.assign(bytes, bytes + PNG_TEXT_PLACE);
-        whole.insert(whole.end(), inserted.begin(), inserted.end());
-        whole.insert(whole.end(), bytes + PNG_TEXT_PLACE, bytes + n);
-        array.data = whole.data();
-        array.count = whole.size();
-    }
     tc_serve_result(serve, result.json, &array, 1);
 }
 
@@ -229,13 +204,10 @@ void encode(tc_serve *serve, json_t *request, const tc_array *array, size_t n_ar
     const void *pixels = rgba;
     text_pairs pairs = get_pairs(request);
     tc_serve_progress(serve, "writing image", 0);
-    if (format == "png" || format == "jpeg") {
-        p.channels = format == "jpeg" || opaque(rgba, array->count / 4) ? 3 : 4;
-        p.type = bits == 16 ? TypeDesc::UINT16 : TypeDesc::UINT8;
-        if (bits == 16)
-            quantise<uint16_t>(p, rgba, false);
-        else
-            quantise<uint8_t>(p, rgba, format == "jpeg");
+    if (format == "jpeg") {
+        p.channels = 3;
+        p.type = TypeDesc::UINT8;
+        quantise(p, rgba);
         pixels = p.bytes.data();
     }
 
@@ -248,7 +220,7 @@ void encode(tc_serve *serve, json_t *request, const tc_array *array, size_t n_ar
         !out->write_image(p.type, pixels, OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride, on_progress, serve) ||
         !out->close())
         throw failure(out->geterror());
-    send_file(serve, file, format == "png" ? png_text_chunks(pairs) : std::vector<uint8_t>());
+    send_file(serve, file);
 }
 
 /* ------------------------------------------------------------------------------------------------------ decoding */
