@@ -120,16 +120,6 @@ static tc_status dispatch(GLuint counters[COUNTERS], loop *l)
     return status;
 }
 
-/* Entries beyond the first of their rays. */
-static int64_t count_twice(const tc_job *job, GLuint rays)
-{
-    const tc_gl *gl = job->gl;
-    GLuint entries = 0;
-    gl->BindBuffer(GL_ATOMIC_COUNTER_BUFFER, job->entry_counter);
-    gl->GetBufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof entries, &entries);
-    return (int64_t)entries - rays;
-}
-
 /* Dispatches until every ray of this layer is finished, or until no cell can be left to step through; rays that entered
  * and those that are left to `entered` and `open`. */
 static tc_status march_layer(int64_t *entered, int64_t *open, loop *l)
@@ -146,7 +136,7 @@ static tc_status march_layer(int64_t *entered, int64_t *open, loop *l)
     if (l->result->layers++ == 0)
         l->result->rays = *entered;
     if (!job->peel) {
-        l->result->twice = count_twice(job, counters[WALKED]);
+        l->result->twice = tc_first_hit_entries(job) - (int64_t)counters[WALKED];
         if (l->result->twice > 0)
             return TC_OK; /* not this way */
     }

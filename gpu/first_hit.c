@@ -7,17 +7,43 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Proposals → vertex buffer; once a frame. */
-static void upload_proposals(const tc_job *job)
+enum { COUNTERS = 16, COUNTER_APART = 16 }; /* first_hit.frag */
+
+enum {
+    DRAW_LEAST = 3 * 600,   /* corners a draw: they are on the GPU one draw at a time, */
+    DRAW_MOST_SHARE = 64,   /* … or in so many draws */
+    FLUSH_EVERY = 3 * 2400, /* corners: what is drawn by then is worth to be begun with */
+};
+
+size_t tc_first_hit_corners(size_t n)
+{
+    size_t share = (n / 3 + DRAW_MOST_SHARE - 1) / DRAW_MOST_SHARE * 3, most = share > DRAW_LEAST ? share : DRAW_LEAST;
+    return n < most ? n : most;
+}
+
+/* Draws the proposals part by part, each through the same buffer: it stays small, and a renderer that works on the CPU
+ * fills the triangles of one part while the next is set up. */
+static void draw_proposals(const tc_job *job)
 {
     const tc_gl *gl = job->gl;
+    const tc_proposals *all = job->proposals;
+    const size_t most = tc_first_hit_corners(all->n);
+    size_t since = 0;
     gl->BindBuffer(GL_ARRAY_BUFFER, job->hit_buffer);
-    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(job->proposals->n * sizeof(tc_proposal)), job->proposals->corner,
-                   GL_STREAM_DRAW);
-    gl->VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(tc_proposal), NULL);
-    gl->VertexAttribIPointer(1, 1, GL_INT, sizeof(tc_proposal), (const void *)offsetof(tc_proposal, face));
     gl->EnableVertexAttribArray(0);
     gl->EnableVertexAttribArray(1);
+    for (size_t first = 0, n; first < all->n; first += n) {
+        n = all->n - first < most ? all->n - first : most;
+        gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(n * sizeof(tc_proposal)), all->corner + first, GL_STREAM_DRAW);
+        gl->VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(tc_proposal), NULL);
+        gl->VertexAttribIPointer(1, 1, GL_INT, sizeof(tc_proposal), (const void *)offsetof(tc_proposal, face));
+        gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)n);
+        since += n;
+        if (since >= FLUSH_EVERY) {
+            gl->Flush();
+            since = 0;
+        }
+    }
     gl->BindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
@@ -72,14 +98,12 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
     gl->ClearBufferfv(GL_DEPTH, 0, &far_depth);
 
     if (!job->peel) {
-        const GLuint none = 0;
-        gl->BindBufferBase(GL_ATOMIC_COUNTER_BUFFER, 0, job->entry_counter);
-        gl->BufferData(GL_ATOMIC_COUNTER_BUFFER, sizeof none, &none, GL_DYNAMIC_READ);
+        const GLuint none[COUNTERS * COUNTER_APART] = {0};
+        gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, job->entry_counter);
+        gl->BufferData(GL_SHADER_STORAGE_BUFFER, sizeof none, none, GL_DYNAMIC_READ);
     }
     gl->UseProgram(program);
     gl->BindVertexArray(job->hit_array);
-    if (layer == 0)
-        upload_proposals(job);
     tc_job_bind_mesh(job, program);
     tc_pass_texture(gl, program, "faces", 6, GL_TEXTURE_BUFFER, job->mesh->faces.texture);
     if (job->peel) {
@@ -91,9 +115,21 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
         tc_pass_texture(gl, program, "sample_mask", 7, GL_TEXTURE_2D, s->mask);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_LESS);
-    if (job->proposals->n > 0)
-        gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)job->proposals->n);
+    draw_proposals(job);
     gl->DepthMask(GL_FALSE);
     gl->BindVertexArray(job->screen_array);
     return tc_gl_check(gl, "finding the first hits", err);
+}
+
+int64_t tc_first_hit_entries(const tc_job *job)
+{
+    const tc_gl *gl = job->gl;
+    GLuint counter[COUNTERS * COUNTER_APART] = {0};
+    int64_t sum = 0;
+    gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, job->entry_counter);
+    gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof counter, counter);
+    for (int i = 0; i < COUNTERS; i++)
+        sum += counter[i * COUNTER_APART];
+    return sum;
 }

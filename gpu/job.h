@@ -20,7 +20,7 @@ typedef struct tc_job {
     const tc_frame *frame;
     const tc_proposals *proposals; /* of this frame */
     GLuint hit_array, hit_buffer;  /* vertex array and buffer for them */
-    GLuint entry_counter;          /* buffer of first_hit.frag's atomic counter */
+    GLuint entry_counter;          /* buffer of first_hit.frag's counters */
     GLuint march_counter;          /* … of march.comp's */
     GLuint screen_array;           /* an empty vertex array */
 

@@ -4,6 +4,7 @@
 #include "gpu/pass.h"
 
 #include <stdio.h>
+#include <string.h>
 
 enum { UNIT_NODES = 2, UNIT_TABLE = 8 };
 /* Of the paper's arithmetic, four each: as textures, and as images, of which there are fewer (stepper_planes.glsl). */
@@ -14,6 +15,9 @@ tc_status tc_march_program(GLuint *program, const tc_job *job, const char *verte
 {
     char defines[512], alias[128];
     tc_job_defines(defines, sizeof defines, job);
+    size_t n = strlen(defines);
+    if (vertex && job->software)
+        snprintf(defines + n, sizeof defines - n, "#define RAYS_FLAT\n");
     snprintf(alias, sizeof alias, "integrator.glsl=%s%s",
              job->drift                               ? "integrate_drift.glsl"
              : job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl"

@@ -152,10 +152,7 @@ static tc_status march_layer(loop *l)
     if (l->result->layers == 0)
         l->result->rays = l->open;
     if (!job->peel) {
-        GLuint entries = 0;
-        gl->BindBuffer(GL_ATOMIC_COUNTER_BUFFER, job->entry_counter);
-        gl->GetBufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof entries, &entries);
-        l->result->twice = (int64_t)entries - l->open;
+        l->result->twice = tc_first_hit_entries(job) - l->open;
         if (l->result->twice > 0)
             return TC_OK; /* not this way */
     }

@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "gpu/audit.h"
+#include "gpu/first_hit.h"
 #include "gpu/pass.h"
 #include "gpu/picture.h"
 #include "gpu/transfer_gpu.h"
@@ -250,7 +251,7 @@ static void fill_stats(tc_render_stats *stats, const tc_gpu_renderer *r, const t
         (double)(r->mesh.cells.bytes + r->mesh.vertices.bytes + r->mesh.planes_vertices.bytes +
                  r->mesh.planes_normals.bytes + r->mesh.planes_neighbours.bytes + r->mesh.planes_scalars.bytes);
     stats->gpu_bytes_other =
-        (double)(r->mesh.faces.bytes + r->mesh.cell_scalar.bytes + r->proposals.n * sizeof *r->proposals.corner);
+        (double)(r->mesh.faces.bytes + r->mesh.cell_scalar.bytes + tc_first_hit_corners(r->proposals.n) * sizeof *r->proposals.corner);
     stats->gpu_bytes_table = (double)r->transfer.textures.bytes;
     stats->gpu_bytes_state = (double)r->state.bytes;
     stats->steps_per_pass = job->steps_per_pass;

@@ -26,6 +26,15 @@ static const struct {
               {GL_UNPACK_SKIP_IMAGES, 0}, {GL_UNPACK_IMAGE_HEIGHT, 0}, {GL_UNPACK_SWAP_BYTES, 0}};
 _Static_assert(sizeof stores / sizeof *stores == TC_SAVED_STORES, "saved.h counts the stores");
 
+/* Buffers at numbered bindings, of which the renderer takes the first. */
+static const struct {
+    GLenum target, binding, start, size;
+} indexed[] = {{GL_ATOMIC_COUNTER_BUFFER, GL_ATOMIC_COUNTER_BUFFER_BINDING, GL_ATOMIC_COUNTER_BUFFER_START,
+                GL_ATOMIC_COUNTER_BUFFER_SIZE},
+               {GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
+                GL_SHADER_STORAGE_BUFFER_SIZE}};
+_Static_assert(sizeof indexed / sizeof *indexed == TC_SAVED_INDEXED, "saved.h counts them");
+
 enum { MAX_ERRORS = 64 }; /* a lost context gives errors without end */
 
 /* At least 8 are offered. */
@@ -56,10 +65,12 @@ void tc_gl_save(tc_gl_saved *s, const tc_gl *gl)
     gl->GetIntegerv(GL_BLEND_EQUATION_ALPHA, &s->blend_equation_alpha);
     gl->GetIntegerv(GL_ARRAY_BUFFER_BINDING, &s->array_buffer);
     gl->GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &s->pack_buffer);
-    gl->GetIntegerv(GL_ATOMIC_COUNTER_BUFFER_BINDING, &s->counter_buffer);
-    gl->GetIntegeri_v(GL_ATOMIC_COUNTER_BUFFER_BINDING, 0, &s->counter_bound);
-    gl->GetInteger64i_v(GL_ATOMIC_COUNTER_BUFFER_START, 0, &s->counter_start);
-    gl->GetInteger64i_v(GL_ATOMIC_COUNTER_BUFFER_SIZE, 0, &s->counter_size);
+    for (int i = 0; i < TC_SAVED_INDEXED; i++) {
+        gl->GetIntegerv(indexed[i].binding, &s->indexed[i].buffer);
+        gl->GetIntegeri_v(indexed[i].binding, 0, &s->indexed[i].bound);
+        gl->GetInteger64i_v(indexed[i].start, 0, &s->indexed[i].start);
+        gl->GetInteger64i_v(indexed[i].size, 0, &s->indexed[i].size);
+    }
     gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &s->unpack_buffer);
     gl->GetIntegerv(GL_POLYGON_MODE, s->polygon_mode);
     gl->GetFloatv(GL_DEPTH_RANGE, s->depth_range);
@@ -131,12 +142,14 @@ void tc_gl_restore(const tc_gl_saved *s, const tc_gl *gl)
     for (int i = 0; i < TC_SAVED_STORES; i++)
         gl->PixelStorei(stores[i].name, s->store[i]);
     gl->BindBuffer(GL_ARRAY_BUFFER, (GLuint)s->array_buffer);
-    if (s->counter_size > 0) /* 0: as a whole, or nothing */
-        gl->BindBufferRange(GL_ATOMIC_COUNTER_BUFFER, 0, (GLuint)s->counter_bound, (GLintptr)s->counter_start,
-                            (GLsizeiptr)s->counter_size);
-    else
-        gl->BindBufferBase(GL_ATOMIC_COUNTER_BUFFER, 0, (GLuint)s->counter_bound);
-    gl->BindBuffer(GL_ATOMIC_COUNTER_BUFFER, (GLuint)s->counter_buffer);
+    for (int i = 0; i < TC_SAVED_INDEXED; i++) {
+        if (s->indexed[i].size > 0) /* 0: as a whole, or nothing */
+            gl->BindBufferRange(indexed[i].target, 0, (GLuint)s->indexed[i].bound, (GLintptr)s->indexed[i].start,
+                                (GLsizeiptr)s->indexed[i].size);
+        else
+            gl->BindBufferBase(indexed[i].target, 0, (GLuint)s->indexed[i].bound);
+        gl->BindBuffer(indexed[i].target, (GLuint)s->indexed[i].buffer);
+    }
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)s->pack_buffer);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);
     gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);

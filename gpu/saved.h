@@ -4,7 +4,7 @@
 
 #include "gpu/gl.h"
 
-enum { TC_SAVED_UNITS = 16, TC_SAVED_IMAGES = 16, TC_SAVED_SWITCHES = 23, TC_SAVED_STORES = 12 };
+enum { TC_SAVED_UNITS = 16, TC_SAVED_IMAGES = 16, TC_SAVED_SWITCHES = 23, TC_SAVED_STORES = 12, TC_SAVED_INDEXED = 2 };
 
 typedef struct tc_gl_saved {
     GLint draw_framebuffer, read_framebuffer, program, vertex_array, active_texture, renderbuffer, texture_buffer;
@@ -12,8 +12,10 @@ typedef struct tc_gl_saved {
     GLint unit_2d[TC_SAVED_UNITS], unit_1d[TC_SAVED_UNITS], unit_3d[TC_SAVED_UNITS], unit_buffer[TC_SAVED_UNITS],
         unit_sampler[TC_SAVED_UNITS];
     GLint array_buffer, pack_buffer, unpack_buffer;
-    GLint counter_buffer, counter_bound; /* atomic counters: the general binding, and binding 0 with its range */
-    GLint64 counter_start, counter_size;
+    struct { /* atomic counters, shader storage: the general binding, and binding 0 with its range */
+        GLint buffer, bound;
+        GLint64 start, size;
+    } indexed[TC_SAVED_INDEXED];
     GLint depth_func, blend_src_rgb, blend_dst_rgb, blend_src_alpha, blend_dst_alpha, blend_equation_rgb,
         blend_equation_alpha, polygon_mode[2];
     GLint store[TC_SAVED_STORES]; /* of saved.c's list */

@@ -14,7 +14,12 @@ uniform float transmittance_stop;
 layout(location = 2) out ivec2 out_key;
 #endif
 #ifndef PEEL
-layout(binding = 0, offset = 0) uniform atomic_uint entries; // all that survive, whether the first or not
+// All that survive, whether the first or not. Counters far enough apart that cores that work on other parts of the picture
+// do not wait for one another.
+const int COUNTERS = 16, COUNTER_APART = 16;
+layout(std430, binding = 0) restrict buffer Entries {
+    uint entries[COUNTERS * COUNTER_APART];
+};
 #endif
 #ifdef SAMPLE_MASK
 uniform usampler2D sample_mask; // 1 where a pixel has a ray
@@ -63,7 +68,8 @@ void main()
     out_key = mine;
 #endif
 #ifndef PEEL
-    atomicCounterIncrement(entries);
+    ivec2 part = ivec2(gl_FragCoord.xy) >> 6;
+    atomicAdd(entries[((part.x + 5 * part.y) & (COUNTERS - 1)) * COUNTER_APART], 1u);
 #endif
     gl_FragDepth = intBitsToFloat(key); // the bits of a positive float sort as it does
     out_walk = ivec4(w.cell, w.id);

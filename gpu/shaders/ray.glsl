@@ -1,15 +1,31 @@
 // ray.glsl: the ray of a pixel and its frame (design: "Ray frame").
 // Lengths are in half diagonals of the bounding box, whose centre is the origin.
 
-uniform dvec3 ray_point, ray_point_dx, ray_point_dy;             // affine in the pixel; see tc_frame_build
-uniform dvec3 ray_direction, ray_direction_dx, ray_direction_dy; // not normalised
+#ifdef RAYS_FLAT // screen.vert hands them on
+flat in uvec4 ray_flat[9];
+flat in vec3 ray_flat_up;
+dvec3 ray_flat_vector(int i)
+{
+    uvec4 a = ray_flat[3 * i / 2], b = ray_flat[3 * i / 2 + 1];
+    return i % 2 == 0 ? dvec3(packDouble2x32(a.xy), packDouble2x32(a.zw), packDouble2x32(b.xy))
+                      : dvec3(packDouble2x32(a.zw), packDouble2x32(b.xy), packDouble2x32(b.zw));
+}
+#define ray_point ray_flat_vector(0)
+#define ray_point_dx ray_flat_vector(1)
+#define ray_point_dy ray_flat_vector(2)
+#define ray_direction ray_flat_vector(3)
+#define ray_direction_dx ray_flat_vector(4)
+#define ray_direction_dy ray_flat_vector(5)
+#define ray_up ray_flat_up
+#else
+#include "ray_uniforms.glsl"
+#endif
 #if defined(CLIP_NEAR) || defined(ENTRY_AHEAD)
 uniform float ray_near; // nothing is seen before the origin and this many (unnormalised) directions
 #endif
 #ifdef CLIP_FAR
 uniform float ray_far; // … nor beyond the origin and this many
 #endif
-uniform vec3 ray_up;
 
 struct Ray {
     vec3 o;       // origin of the frame: the point in the plane through the mesh's centre, or the eye when it is near
