@@ -93,6 +93,8 @@ typedef struct tc_prepare_options {
     tc_reentry reentry;       /* how rays cross gaps; AUTO: convexify, and peel if that fails */
     double convexify_limit_s; /* time limit of the TetGen helper; 0: 120 s */
     int threads;              /* 0: all cores */
+    size_t once_pixels;       /* of the one picture that this is for; 0: more may follow. AUTO then peels where that is
+                                 sooner than filling the gaps; a later call with 0 fills them */
 } tc_prepare_options;
 
 /* Checks and repairs the mesh, orders it along a Hilbert curve, links neighbours and fills gaps. Must precede

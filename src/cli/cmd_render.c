@@ -1,4 +1,5 @@
 /* cmd_render.c: `tetcast render`: one image of a mesh, or one of each of several steps. */
+#include "cli/render_choose.h"
 #include "cli/render_picture.h"
 #include "cli/render_sequence.h"
 
@@ -55,10 +56,20 @@ static int tc_render_one(const tc_render_command *options, tc_talk *talk, int ar
     return code;
 }
 
+/* Does the command make one frame of a picture, and keep nothing for another? */
+static bool tc_render_is_once(const tc_render_command *o)
+{
+    bool again = o->steps.there || o->has_repeat || o->source.cache || o->source.cache_file;
+    bool measured = o->count || o->audit || o->stats || o->has_verify || tc_choice_asked(o);
+    return !again && !measured && o->samples <= 1 && o->samples >= 0 && o->stepper == TC_STEPPER_SIGNS;
+}
+
 int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, char **argv)
 {
     tc_render_command options;
     int code = tc_render_command_read(&options, talk, command, argc, argv);
+    if (code < 0 && tc_render_is_once(&options))
+        options.source.once_pixels = (size_t)options.size.width * (size_t)options.size.height;
     if (code < 0)
         code = options.steps.there ? tc_render_sequence(&options, talk, argc, argv)
                                    : tc_render_one(&options, talk, argc, argv);

@@ -11,7 +11,8 @@ typedef struct tc_input_options {
     int step, refine;
     double idle_limit; /* seconds; 0: the default */
     bool keep_reader;  /* other steps will follow: tc_input_step */
-    int reentry; /* tc_reentry */
+    int reentry;        /* tc_reentry */
+    size_t once_pixels; /* as of tc_prepare_options */
     int threads;
     uint64_t seed;
     bool cache;             /* beside INPUT */

@@ -294,6 +294,30 @@ tc_status tc_mesh_convexify(tc_mesh *m, const tc_boundary *b, double limit_s, in
     return status;
 }
 
+/* Peeling takes a pass or two more over the picture where a ray enters the mesh seldom more than twice. The mean number
+ * of entries over all rays that meet the hull is the boundary's area over the hull's (Cauchy 1832), here that of the
+ * bounds. Blunt Fin (ratio 0.9): TetGen takes 110 ms for 13 438 faces, peeling 22 ms more for 512 x 512 pixels and 76 for
+ * nine times as many; a heat sink of 48 fins (ratio 10) has 9 layers, which take longer than filling it. */
+bool tc_mesh_peel_is_sooner(const tc_mesh *m, const tc_boundary *b, size_t pixels)
+{
+    static const double folds = 1.5, faces = 4000, pixels_a_face = 200;
+    if (pixels == 0 || !((double)b->n_face >= faces + (double)pixels / pixels_a_face))
+        return false;
+    double area = 0, e[3];
+    for (int k = 0; k < 3; k++)
+        e[k] = m->report.bounds[2 * k + 1] - m->report.bounds[2 * k];
+    for (size_t f = 0; f < b->n_face; f++) {
+        const double *x[3];
+        double u[3], v[3];
+        for (int i = 0; i < 3; i++)
+            x[i] = m->vertex + 3 * (size_t)b->vertex[b->face[3 * f + (size_t)i]];
+        for (int k = 0; k < 3; k++)
+            u[k] = x[1][k] - x[0][k], v[k] = x[2][k] - x[0][k];
+        area += 0.5 * hypot(hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]), u[0] * v[1] - u[1] * v[0]);
+    }
+    return area <= folds * 2 * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0]);
+}
+
 void tc_mesh_strip(tc_mesh *m)
 {
     for (size_t i = 0; i < 4 * m->n_tet; i++)

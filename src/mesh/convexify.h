@@ -17,6 +17,11 @@
 tc_status tc_mesh_convexify(tc_mesh *mesh, const tc_boundary *boundary, double limit_s, int threads, const tc_log *log,
                             tc_error *err);
 
+/* Is one picture of so many pixels, 0 for more pictures, made sooner by peeling than after filling the gaps? By the size of the
+ * boundary, which TetGen's time grows with, and by how often it lies behind itself. boundary: of mesh's real tets. Cost:
+ * O(n_face). */
+bool tc_mesh_peel_is_sooner(const tc_mesh *mesh, const tc_boundary *boundary, size_t pixels);
+
 /* Takes the imaginary tets and Steiner points away again. */
 void tc_mesh_strip(tc_mesh *mesh);
 

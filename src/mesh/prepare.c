@@ -165,6 +165,12 @@ static tc_status fill_gaps(tc_mesh *m, const tc_prepare_options *o, const tc_log
     if (status != TC_OK)
         return status;
     r->convex = tc_boundary_is_convex(&boundary, m->vertex, tc_boundary_rounding(r->bounds));
+    if (o->reentry == TC_REENTRY_AUTO && !r->convex && tc_mesh_peel_is_sooner(m, &boundary, o->once_pixels)) {
+        tc_boundary_finish(&boundary);
+        copy_text(r->reentry_why, sizeof r->reentry_why, "a single picture is there sooner than the gaps are filled");
+        tc_say(log, TC_INFO, "re-entry by depth peeling is used: %s", r->reentry_why);
+        return TC_OK; /* m->asked stays PEEL: a later call may fill them */
+    }
     if (o->reentry != TC_REENTRY_PEEL && !r->convex) {
         double start = tc_now_ms();
         tc_progress(log, "filling gaps", -1);

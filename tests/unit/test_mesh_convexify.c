@@ -244,6 +244,49 @@ static void a_fan_of_thousands_has_gaps_and_one_around_twice_has_none(void **sta
     assert_false(prepare_fan(1001, 2).convex);
 }
 
+static bool notched(int i, int j, int k)
+{
+    (void)k;
+    return i > 0 || j > 0;
+}
+
+static bool teeth(int i, int j, int k)
+{
+    (void)j;
+    return i % 2 == 0 || k == 0;
+}
+
+/* 6400 faces and few folds; as many with folds, which would be peeled many times. */
+static void one_picture_waits_for_gaps_or_many_are_peeled(void **state)
+{
+    (void)state;
+    static const struct {
+        int n[3];
+        bool (*keep)(int i, int j, int k);
+        size_t pixels;
+        tc_reentry asked, got;
+    } list[] = {{{40, 40, 1}, notched, 100, TC_REENTRY_AUTO, TC_REENTRY_PEEL},
+                {{40, 40, 1}, notched, 100, TC_REENTRY_CONVEXIFY, TC_REENTRY_CONVEXIFY},
+                {{40, 40, 1}, notched, 4000000, TC_REENTRY_AUTO, TC_REENTRY_CONVEXIFY},
+                {{20, 20, 1}, notched, 100, TC_REENTRY_AUTO, TC_REENTRY_CONVEXIFY},
+                {{40, 8, 12}, teeth, 100, TC_REENTRY_AUTO, TC_REENTRY_CONVEXIFY}};
+    for (size_t c = 0; c < sizeof list / sizeof *list; c++) {
+        shape s = {0};
+        tc_error err = {0};
+        shape_grid(&s, list[c].n, list[c].keep);
+        tc_mesh *m = shape_mesh(&s, NULL, TC_POINT_DATA);
+        tc_prepare_options once = {.reentry = list[c].asked, .once_pixels = list[c].pixels};
+        assert_int_equal(tc_mesh_prepare(m, &once, NULL, &err), TC_OK);
+        tc_mesh_report r;
+        tc_mesh_get_report(&r, m);
+        assert_int_equal(r.reentry, list[c].got);
+        assert_int_equal(r.reentry_why[0] != 0, list[c].asked == TC_REENTRY_AUTO && list[c].got == TC_REENTRY_PEEL);
+        assert_int_equal(shape_prepare(m, TC_REENTRY_AUTO).reentry, TC_REENTRY_CONVEXIFY);
+        shape_check_promises(m);
+        end(&m, &s);
+    }
+}
+
 static void another_reentry_redoes_only_the_gaps(void **state)
 {
     (void)state;
@@ -426,6 +469,7 @@ int main(void)
         cmocka_unit_test(sides_flat_to_rounding_do_not_prevent_filling),
         cmocka_unit_test(a_convex_mesh_needs_no_helper),
         cmocka_unit_test(a_fan_of_thousands_has_gaps_and_one_around_twice_has_none),
+        cmocka_unit_test(one_picture_waits_for_gaps_or_many_are_peeled),
         cmocka_unit_test(another_reentry_redoes_only_the_gaps),
         cmocka_unit_test_setup_teardown(a_helper_that_dies_or_hangs_means_peeling, fake_setup, fake_teardown),
         cmocka_unit_test(boundaries_that_cannot_be_filled_mean_peeling),
