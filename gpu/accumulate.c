@@ -60,7 +60,7 @@ static void draw_state(const tc_job *job, GLuint program, GLuint framebuffer)
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl->Viewport(0, 0, job->state->width, job->state->height);
     gl->Disable(GL_DEPTH_TEST);
-    tc_pass_texture(gl, program, "state_color", 0, GL_TEXTURE_2D, job->state->set[0].color);
+    tc_pass_texture(gl, program, "state_color", 0, GL_TEXTURE_2D, job->state->set[job->last].color);
     gl->Uniform3f(gl->GetUniformLocation(program, "color_most"), (float)job->most[0], (float)job->most[1],
                   (float)job->most[2]);
     tc_pass_screen(gl);

@@ -154,7 +154,7 @@ static tc_status frame(tc_job_result *out, const tc_job *job, tc_error *err)
     memset(out, 0, sizeof *out);
     loop l = {.job = job, .result = out, .err = err};
     double start = tc_now_ms();
-    tc_march_clear(job);
+    tc_march_clear(job, 0);
     tc_status status = tc_first_hit(job, 0, err);
     gl->Finish();
     out->ms_first_hit = tc_now_ms() - start;

@@ -54,6 +54,7 @@ typedef struct tc_job {
     bool count, audit;                  /* audit counts as well */
     bool planes;                        /* the stepper is the paper's arithmetic: stepper_planes.glsl, */
     double longest;                     /* … which needs to know the longest edge of the real cells, in mesh space */
+    int last;                           /* as tc_job_result has it, for what comes behind the walk */
     bool masked;                        /* only the pixels that state->mask marks have a ray */
     bool software;                      /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
 } tc_job;
@@ -62,6 +63,7 @@ typedef struct tc_job_result {
     double ms_first_hit, ms_march;
     int passes, z_updates, layers; /* passes: dispatches of compute */
     int64_t rays, rays_lost;
+    int last;      /* the state set that holds what the rays have gathered; counting: set 0 */
     int64_t twice; /* without peeling: entries beyond the first of their rays; if there are any, no picture was made */
     int64_t *fragments; /* [passes], only when counting; caller frees */
 } tc_job_result;

@@ -120,13 +120,13 @@ void tc_march_bind_state(const tc_job *job, GLuint program, const tc_state_set *
         tc_pass_texture(gl, program, "state_audit", TC_UNIT_AUDIT, GL_TEXTURE_2D, set->audit);
 }
 
-void tc_march_clear(const tc_job *job)
+void tc_march_clear(const tc_job *job, int set)
 {
     const tc_gl *gl = job->gl;
     /* An empty ray: no colour, no optical depth, or full transmittance. */
     const GLfloat empty[4] = {0, 0, 0, tc_job_holds_depth(job) ? 0.0f : 1.0f};
     const GLuint none[4] = {0, 0, 0, 0};
-    gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->set[0].framebuffer);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->set[set].framebuffer);
     gl->ClearBufferfv(GL_COLOR, 1, empty);
     if (job->count)
         gl->ClearBufferuiv(GL_COLOR, 3, none);

@@ -15,7 +15,7 @@ tc_status tc_march_program(GLuint *program, const tc_job *job, const char *verte
 void tc_march_bind(const tc_job *job, GLuint program);
 /* Binds the state to read. The program must be in use. */
 void tc_march_bind_state(const tc_job *job, GLuint program, const tc_state_set *set);
-/* Empties what rays have gathered, in state set 0: its colour, steps and audit. Binds its framebuffer. */
-void tc_march_clear(const tc_job *job);
+/* Empties what rays have gathered, in a state set: its colour, steps and audit. Binds its framebuffer. */
+void tc_march_clear(const tc_job *job, int set);
 
 #endif

@@ -115,6 +115,7 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
     gl->Scissor(rect[0], rect[1], rect[2], rect[3]);
     if (status == TC_OK)
         status = job->driver->frame(&one, job, err);
+    job->last = one.last;
     one.ms_first_hit += ms_propose;
     p->result.twice = one.twice;
     if (status == TC_OK && one.twice == 0)

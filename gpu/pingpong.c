@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { AHEAD = 2 };
+enum { AHEAD = 2, ONE_PASS_STEPS = 64 };
 static const GLuint64 WAIT_NS = 1000000000ull; /* for a fence, at a time */
 enum { WAITS = 3600 };                         /* a pass over a large picture on a slow machine takes minutes */
 
@@ -60,15 +60,16 @@ static tc_status prepare_march(loop *l)
     return status;
 }
 
-/* Issues a z-update pass with its query. */
-static void issue_lock(loop *l)
+/* Issues a pass whose query counts the rays of a set that are finished, and not locked; with `locks`, the z-update, which
+ * locks them. */
+static void issue_count(loop *l, int set, bool locks)
 {
     const tc_gl *gl = l->job->gl;
     gl->BindFramebuffer(GL_FRAMEBUFFER, l->job->state->lock_framebuffer);
     gl->Enable(GL_DEPTH_TEST);
-    gl->DepthMask(GL_TRUE);
+    gl->DepthMask(locks);
     gl->UseProgram(l->lock);
-    tc_pass_texture(gl, l->lock, "state_walk", TC_UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[0].walk);
+    tc_pass_texture(gl, l->lock, "state_walk", TC_UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[set].walk);
     gl->BeginQuery(GL_SAMPLES_PASSED, l->lock_query);
     tc_pass_screen(gl);
     gl->EndQuery(GL_SAMPLES_PASSED);
@@ -77,11 +78,16 @@ static void issue_lock(loop *l)
         gl->Disable(GL_DEPTH_TEST); /* march as if nothing were locked: the query alone is wanted */
     l->lock_fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl->Flush();
+}
+
+static void issue_lock(loop *l)
+{
+    issue_count(l, 0, true);
     l->result->z_updates++;
 }
 
-/* Waits on the fence behind the last z-update (passes issued since keep the GPU busy), then reads its count. */
-static tc_status collect_lock(loop *l)
+/* Waits on the fence behind the last issue_count (passes issued since keep the GPU busy), then reads its count. */
+static tc_status collect_count(int64_t *count, loop *l)
 {
     const tc_gl *gl = l->job->gl;
     GLenum state = GL_TIMEOUT_EXPIRED;
@@ -102,8 +108,16 @@ static tc_status collect_lock(loop *l)
         gl->GetQueryObjectuiv(l->lock_query, GL_QUERY_RESULT_AVAILABLE, &available);
     while (!available);
     gl->GetQueryObjectui64v(l->lock_query, GL_QUERY_RESULT, &finished);
-    l->open -= (int64_t)finished;
+    *count = (int64_t)finished;
     return TC_OK;
+}
+
+static tc_status collect_lock(loop *l)
+{
+    int64_t finished = 0;
+    tc_status status = collect_count(&finished, l);
+    l->open -= finished;
+    return status;
 }
 
 static tc_status issue_pass(loop *l, int from)
@@ -134,6 +148,30 @@ static tc_status issue_pass(loop *l, int from)
     return TC_OK;
 }
 
+/* Where a pass is long enough for most rays the first may be the last: then none copies what is finished back to set 0. */
+static bool may_do_in_one(const tc_job *job)
+{
+    return job->software && !job->peel && !job->count && job->steps_per_pass >= ONE_PASS_STEPS;
+}
+
+/* The first pass; l->open becomes 0 if it finished every ray, whose colours are then in set 1. */
+static tc_status march_once(loop *l)
+{
+    const tc_job *job = l->job;
+    int64_t finished = 0;
+    tc_march_clear(job, 1); /* rays that miss the mesh are locked: no pass gives them a colour there */
+    tc_status status = issue_pass(l, 0);
+    if (status != TC_OK)
+        return status;
+    issue_count(l, 1, false);
+    status = collect_count(&finished, l);
+    if (status == TC_OK && finished == l->open) {
+        l->open = 0;
+        l->result->last = 1;
+    }
+    return status;
+}
+
 /* Passes until every ray of this layer is finished, or until no cell can be left to step through. */
 static tc_status march_layer(loop *l)
 {
@@ -162,9 +200,16 @@ static tc_status march_layer(loop *l)
     int64_t passes = 0;
     int64_t limit = ((int64_t)job->mesh->n_cell + 2) / job->steps_per_pass + 2 * interval + AHEAD + 4;
     bool waiting = false;
+    int first = 0; /* set that the next pass reads */
+    if (may_do_in_one(job)) {
+        status = march_once(l);
+        first = 1;
+        passes++, since++;
+    }
     while (status == TC_OK && l->open > 0 && passes < limit) {
-        for (int from = 0; from < 2 && status == TC_OK; from++, passes++, since++)
+        for (int from = first; from < 2 && status == TC_OK; from++, passes++, since++)
             status = issue_pass(l, from);
+        first = 0;
         if (waiting)
             ahead += 2;
         if (status == TC_OK && waiting && ahead >= AHEAD) {
@@ -221,7 +266,7 @@ static tc_status frame(tc_job_result *out, const tc_job *job, tc_error *err)
     memset(out, 0, sizeof *out);
     loop l = {.job = job, .result = out, .err = err};
     double start = tc_now_ms();
-    tc_march_clear(job);
+    tc_march_clear(job, 0);
     tc_status status = tc_first_hit(job, 0, err);
     if (status == TC_OK)
         status = prepare_march(&l);

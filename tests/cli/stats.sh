@@ -32,7 +32,7 @@ json m.json eq march.samples 4 lacks march.pixels_refined eq march.state_bits 32
 
 # Where rounding folds the hull (here entries count twice) a picture is made again by peeling, with all of its rays.
 run 0 render $sink --samples adaptive -o once.exr
-sed 's/atomicCounterIncrement(entries);/& atomicCounterIncrement(entries);/' "$TC_SOURCE/gpu/shaders/first_hit.frag" >first_hit.frag
+sed 's/\(atomicAdd(entries.*\), 1u);/\1, 2u);/' "$TC_SOURCE/gpu/shaders/first_hit.frag" >first_hit.frag
 for driver in pingpong compute; do
     TETCAST_SHADERS=.
     export TETCAST_SHADERS
