@@ -13,6 +13,9 @@ install(TARGETS tetcast RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS tetcast_lib LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   PUBLIC_HEADER DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS ${tc_helpers} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/tetcast)
+if(TARGET tetcast-read-more) # beside tetcast-read, which loads it
+  install(TARGETS tetcast-read-more LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/tetcast)
+endif()
 
 file(GLOB tc_man CONFIGURE_DEPENDS docs/man/*.1)
 install(FILES ${tc_man} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

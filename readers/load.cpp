@@ -140,17 +140,15 @@ static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sni
     switch (sniffed.format) {
     case TC_FORMAT_VTK_XML:
     case TC_FORMAT_VTK_LEGACY:
-    case TC_FORMAT_VTKHDF:
         reader = make_vtk_reader(path, sniffed);
         break;
+    case TC_FORMAT_VTKHDF:
     case TC_FORMAT_EXODUS:
     case TC_FORMAT_ENSIGHT:
     case TC_FORMAT_OPENFOAM:
     case TC_FORMAT_CGNS:
-        reader = make_case_reader(path, sniffed);
-        break;
     case TC_FORMAT_PLOT3D:
-        reader = make_plot3d_reader(path);
+        reader = make_more_reader(path, sniffed);
         break;
     default:
         throw Refusal(path + " is a list of files inside a list of files, which is not read; give the inner one");

@@ -44,8 +44,13 @@ class Reader
 };
 
 std::unique_ptr<Reader> make_vtk_reader(const std::string &path, const tc_sniffed &sniffed);  // load_vtk.cpp
+
+// In the module tetcast-read-more.so, with the libraries that these formats need: it is loaded when one is called for,
+// since to load them takes 20 ms. Throws a Refusal when it is missing.
+std::unique_ptr<Reader> make_more_reader(const std::string &path, const tc_sniffed &sniffed); // load_more.cpp
 std::unique_ptr<Reader> make_case_reader(const std::string &path, const tc_sniffed &sniffed); // load_cases.cpp
 std::unique_ptr<Reader> make_plot3d_reader(const std::string &path);                          // load_plot3d.cpp
+std::unique_ptr<Reader> make_hdf_reader(const std::string &path);                             // more.cpp
 
 // A list of files over time: PVD collection or .series.
 struct Series {

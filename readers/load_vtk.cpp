@@ -1,8 +1,7 @@
-// load_vtk.cpp: VTK's own formats: XML, legacy, VTKHDF.
+// load_vtk.cpp: VTK's own formats: XML, legacy.
 #include "load.h"
 
 #include <vtkDataSetReader.h>
-#include <vtkHDFReader.h>
 #include <vtkNew.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLMultiBlockDataReader.h>
@@ -91,21 +90,13 @@ std::unique_ptr<Reader> make_vtk_reader(const std::string &path, const tc_sniffe
     std::unique_ptr<Reader> reader;
     if (sniffed.format == TC_FORMAT_VTK_XML) {
         reader = make_xml(path, sniffed.kind);
-    } else if (sniffed.format == TC_FORMAT_VTK_LEGACY) {
+    } else {
         auto legacy = std::make_unique<LegacyReader>();
         legacy->legacy = vtkSmartPointer<vtkDataSetReader>::New();
         legacy->legacy->SetFileName(path.c_str());
         legacy->algorithm = legacy->legacy;
         legacy->format = "legacy VTK";
         reader = std::move(legacy);
-    } else {
-        reader = std::make_unique<Reader>();
-        auto hdf = vtkSmartPointer<vtkHDFReader>::New();
-        hdf->SetFileName(path.c_str());
-        reader->algorithm = hdf;
-        reader->format = "VTKHDF";
-        reader->point_selection = hdf->GetPointDataArraySelection();
-        reader->cell_selection = hdf->GetCellDataArraySelection();
     }
     reader->path = path;
     return reader;

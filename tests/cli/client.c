@@ -9,7 +9,7 @@ int main(void)
     static const int32_t tet[4] = {0, 1, 2, 3};
     static const tc_knot knot[2] = {{0, 0, 0, 1, 5}, {3, 1, 0, 0, 5}};
     tc_mesh_arrays arrays = {4, vertex, 1, tet, scalar, TC_POINT_DATA, "heat"};
-    tc_prepare_options prepare = {TC_REENTRY_AUTO, 0, 1};
+    tc_prepare_options prepare = {.reentry = TC_REENTRY_AUTO, .threads = 1};
     tc_renderer_options where = {.driver = "reference", .threads = 1};
     tc_render_options how;
     tc_render_stats stats;
