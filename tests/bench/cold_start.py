@@ -7,8 +7,9 @@ the machine does falls on all of them.
 
 VTK's script reads, maps the range to Cool to Warm and opacity 0 to 0.3, resets the camera, and writes the window:
 vtkUnstructuredGridVolumeRayCastMapper with its defaults, on all cores. Its X server (xvfb-run) runs before and is not timed.
-Files are in the page cache: one round before is not counted. CPU: of all cores, helpers included, the X server not. Needs
-python3-vtk9 and xvfb, or --no-vtk.
+Files are in the page cache, and shaders in Mesa's cache on disk, as after any run: one round before is not counted.
+MESA_SHADER_CACHE_DISABLE=1 gives the first run of all, where programs are compiled in both. CPU: of all cores, helpers
+included, the X server not. Needs python3-vtk9 and xvfb, or --no-vtk.
 """
 
 import argparse
