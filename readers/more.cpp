@@ -1,5 +1,5 @@
-// more.cpp: the module tetcast-read-more.so: readers whose libraries take long to load. What it shares with tetcast-read
-// (Reader, VtkTalk, may_be_wanted) is taken from there.
+// more.cpp: the module tetcast-read-more.so: readers whose libraries take long to load. What it shares with
+// tetcast-read (Reader, VtkTalk, may_be_wanted) is taken from there.
 #include "more.h"
 
 #include <vtkHDFReader.h>

@@ -296,8 +296,8 @@ tc_status tc_mesh_convexify(tc_mesh *m, const tc_boundary *b, double limit_s, in
 
 /* Peeling takes a pass or two more over the picture where a ray enters the mesh seldom more than twice. The mean number
  * of entries over all rays that meet the hull is the boundary's area over the hull's (Cauchy 1832), here that of the
- * bounds. Blunt Fin (ratio 0.9): TetGen takes 110 ms for 13 438 faces, peeling 22 ms more for 512 x 512 pixels and 76 for
- * nine times as many; a heat sink of 48 fins (ratio 10) has 9 layers, which take longer than filling it. */
+ * bounds. Blunt Fin (ratio 0.9): TetGen takes 110 ms for 13 438 faces, peeling 22 ms more for 512 x 512 pixels and 76
+ * for nine times as many; a heat sink of 48 fins (ratio 10) has 9 layers, which take longer than filling it. */
 bool tc_mesh_peel_is_sooner(const tc_mesh *m, const tc_boundary *b, size_t pixels)
 {
     static const double folds = 1.5, faces = 4000, pixels_a_face = 200;
