@@ -120,10 +120,9 @@ vec4 tf_mean_between(TfSample front, TfSample back, out float rounding)
 #ifdef TF_EXTEND
     near = near || front.beyond * back.beyond > 0.0; // constant there
 #endif
-    vec4 ends = kept_mean + 0.5 * (front.point + back.point);
     rounding = 1.0 / (near ? 1.0 : dx);
-    vec4 between = kept_mean + (back.cumulative - front.cumulative) * rounding;
-    return near ? ends : between;
+    vec4 ends = front.point + back.point, between = back.cumulative - front.cumulative;
+    return kept_mean + (near ? ends : between) * (near ? 0.5 : rounding);
 }
 
 // Adds a piece of length l from the last sample to back. With TF_HARD nothing is added, and the piece waits, where its
@@ -132,18 +131,18 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float l, float r
 {
     float t = max(l * mean.a, 0.0);
     float inverse = mean.a > 1.0e-37 ? 1.0 / mean.a : 0.0;
-    vec3 color = mean.rgb * inverse, drift = vec3(0.0);
+    // The drift: k times the mean colour times what tau rises by, less what tau rgb rises by.
+    float k = 0.0, rise = back.point.a - i.front.point.a;
 #ifndef TF_FIRST_ORDER
-    float k = i.sum.transmittance * inverse * t * t / (12.0 + t * (6.0 + 2.0 * t));
-    drift = k * (color * (back.point.a - i.front.point.a) - (back.point.rgb - i.front.point.rgb));
+    k = i.sum.transmittance * inverse * t * t / (12.0 + t * (6.0 + 2.0 * t));
 #endif
 #ifdef TF_HARD
+    vec3 drift = k * (mean.rgb * (inverse * rise) - (back.point.rgb - i.front.point.rgb));
     float slope = mean.a > 0.0 ? abs(rounding) * kept_hard.z - mean.a * kept_hard.w : 0.0;
     float most = max(max(abs(drift.r), abs(drift.g)), max(abs(drift.b), l * max(abs(mean.a) * kept_hard.y, slope)));
     bool hard = !(most <= kept_hard.x) || max(i.front.point.a, back.point.a) > TF_LEFT_OUT, add = l > 0.0 && !hard;
     t = add ? t : 0.0;
-    color = add ? color : vec3(0.0);
-    drift = add ? drift : vec3(0.0);
+    k = add ? k : 0.0;
     // Carried from round to round of the loop: of a value made anew in each, llvmpipe keeps, behind the loop, that of the
     // round in which the last lane left.
     i.wait_from = hard ? i.front.x : i.wait_from;
@@ -152,7 +151,7 @@ void integral_piece(inout Integral i, TfSample back, vec4 mean, float l, float r
 #endif
     i.sum.depth += t;
     float transmittance = exp(-i.sum.depth);
-    i.sum.rgb += color * (i.sum.transmittance - transmittance) + drift;
+    i.sum.rgb += mean.rgb * (inverse * (i.sum.transmittance - transmittance + k * rise)) - k * (back.point.rgb - i.front.point.rgb);
     i.sum.transmittance = transmittance;
     i.front = back;
 }

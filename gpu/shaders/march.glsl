@@ -11,6 +11,7 @@ uniform float transmittance_stop;  // a ray ends at or below
 uniform vec4 nan_color; // of cells with a value that is not finite: r, g, b, attenuation per unit distance
 vec4 march_nan_color = vec4(0.0);
 #endif
+const int MARCH_ENDED = -2, MARCH_OPAQUE = -4; // in place of a cell: the ray ends within the mesh; for it is opaque
 float march_unit = 0.0, march_least = 0.0; // length_unit, transmittance_stop
 #ifdef AUDIT
 struct Audit {
@@ -69,7 +70,7 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
         float f = clamp((ray.far - segment.z0) / (segment.z1 - segment.z0), 0.0, 1.0);
         segment.s1 = mix(segment.s0, segment.s1, f);
         segment.z1 = max(segment.z0, ray.far);
-        w.cell = -2; // the rest is not seen
+        w.cell = MARCH_ENDED; // the rest is not seen
     }
 #endif
 #ifdef AUDIT
@@ -95,12 +96,9 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
 }
 
 // Ends the ray where it is opaque.
-void march_stop(inout Walk w, Integral integral, inout vec2 stop)
+void march_stop(inout Walk w, Integral integral)
 {
-    // Carried from round to round: what each round makes anew llvmpipe keeps, behind the loop, as the last lane left it.
-    bool stops = w.cell >= 0 && integral_transmittance(integral) <= march_least;
-    stop = stops ? vec2(w.s, 1.0) : stop;
-    w.cell = stops ? -2 : w.cell;
+    w.cell = w.cell >= 0 && integral_transmittance(integral) <= march_least ? MARCH_OPAQUE : w.cell;
 }
 
 // Up to steps_per_pass steps of the ray through `pixel`, which is not finished. walk: its cell, negative once it is
@@ -124,7 +122,6 @@ int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
     Integral integral = integral_begin(color, w.s);
     int k = 0;
     bool open = false;     // the last step's segment is not all added yet
-    vec2 stop = vec2(0.0); // the scalar where the opacity stop ended the ray, and whether it did
 #define GOES_ON (open || w.cell >= 0 && k < most)
     // Loops in one another: what is rare waits in the outer ones until all lanes of a group need it or are done.
 #ifdef TF_HARD
@@ -139,7 +136,7 @@ int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
             }
             open = integral_round(integral);
             if (!open)
-                march_stop(w, integral, stop);
+                march_stop(w, integral);
         } while (GOES_ON && !integral_waits(integral) && walk_fast(w, ray));
     } while (GOES_ON && !integral_waits(integral));
 #ifdef TF_HARD
@@ -147,8 +144,10 @@ int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
     } while (GOES_ON);
 #endif
     // What is left may be absorbed behind, or not: half of it is taken to be, in the colour that the ray is in.
-    if (stop.y > 0.0)
-        integral_stop(integral, stop.x);
+    if (w.cell == MARCH_OPAQUE) {
+        integral_stop(integral, w.s);
+        w.cell = MARCH_ENDED;
+    }
     color = integral_end(integral);
     walk = ivec4(w.cell, w.id);
     at = vec2(w.z, w.s);
