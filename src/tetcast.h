@@ -195,9 +195,10 @@ TC_API tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_opt
                               tc_error *err);
 /* Another step or field of a mesh that tc_mesh_read made, prepared or not, from the same file or from another with the same
  * points and cells: only values are taken, so that all that was prepared stays, and the mesh's source and report are of
- * this step. Points and cells are compared bit by bit, through a hash of 64 bits, which a mesh of tc_mesh_load lacks.
+ * this step. Points and cells are compared bit by bit, through a hash of 64 bits.
  *   moved  NULL, or gets on TC_E_MOVED, and only then, the mesh of that step as tc_mesh_read would make it, not prepared
- * What tc_mesh_source gave for the mesh before is no longer valid. tetcast-read goes on until the mesh is destroyed.
+ * What tc_mesh_source gave for the mesh before is no longer valid. tetcast-read goes on until the mesh is destroyed, with
+ * the idle_limit_s that it was started with: that of later options is not looked at while it runs.
  * Errors: as tc_mesh_read; TC_E_ARG (the mesh was not read from a file); TC_E_MOVED (points or cells are others, or points
  * at one place that were merged have different values now). On failure mesh is as it was. Cost: reading the file,
  * comparing 3 doubles a point and the cells' point numbers, O(vertices) or O(tets); cells are not split again. */
@@ -210,7 +211,7 @@ TC_API const tc_source *tc_mesh_source(const tc_mesh *mesh);
 
 /* What a prepared mesh depends on: the bytes of its file, every setting of reading and preparing that changes the result,
  * and the builds of library and helpers. Of a dataset of several files (all but VTK's XML files without pieces and legacy
- * VTK) also names, sizes and times of all files in and below its folder, pictures, .csv and .json left out. */
+ * VTK) also names, sizes and times of all files in and below its folder, cache files, pictures, .csv and .json left out. */
 typedef struct tc_cache_key {
     uint64_t word[2];
 } tc_cache_key;
@@ -219,11 +220,13 @@ typedef struct tc_cache_key {
  * after: only if both are equal was it read as it is.
  * Errors: TC_E_FILE (the file cannot be read; what belongs to the dataset cannot be told: it names files outside of its
  * folder, one was changed less than 50 ms ago, or there are more than 20 000), TC_E_MEMORY. Cost: reads the file once, some
- * GB/s; a stat for each file of a folder. What HDF5 or OpenFOAM files include from outside of their folder is not seen. */
+ * GB/s; a stat and some bytes of each file of a folder. What HDF5 or OpenFOAM files include from outside of their folder
+ * is not seen. */
 TC_API tc_status tc_cache_key_make(tc_cache_key *out, const char *path, const tc_read_options *read,
                                    const tc_prepare_options *prepare, tc_error *err);
 /* Writes a mesh that was read and prepared to the file `cache`: beside it, then renamed, so that readers and other writers
- * see an old or a new one. A file that neither is a cache file nor has a name that ends in .tccache is not written over.
+ * see an old or a new one. The mesh must hold the values that key stands for: not after tc_mesh_set_scalar or
+ * tc_mesh_read_values. A file that neither is a cache file nor has a name that ends in .tccache is not written over.
  * Errors: TC_E_ARG (not prepared, or made from arrays), TC_E_FILE, TC_E_MEMORY. */
 TC_API tc_status tc_mesh_save(const tc_mesh *mesh, const char *cache, const tc_cache_key *key, int threads, tc_error *err);
 /* A mesh as it was saved, prepared; call tc_mesh_prepare all the same: it does nothing, or tries again what a helper could
@@ -400,8 +403,9 @@ TC_API tc_status tc_renderer_create(tc_renderer **out, const tc_renderer_options
  * until the end. Not in a host's context. Errors: TC_E_ARG, TC_E_MEMORY. */
 typedef struct tc_renderer_start tc_renderer_start;
 TC_API tc_status tc_renderer_begin(tc_renderer_start **out, const tc_renderer_options *options, tc_error *err);
-/* Waits for it, and is then as tc_renderer_create; what that had to say goes to log now. *start is freed. out NULL: the
- * renderer is not wanted any more. */
+/* Waits for it, and is then as tc_renderer_create, but for the context: none is made current on the calling thread before
+ * the first call that renders. What tc_renderer_create had to say goes to log now. *start is freed. out NULL: the renderer
+ * is not wanted any more. */
 TC_API tc_status tc_renderer_end(tc_renderer **out, tc_renderer_start **start, const tc_log *log, tc_error *err);
 /* Frees what is in the GL context, and the context if it is the renderer's own. A host's context must be current. */
 TC_API void tc_renderer_destroy(tc_renderer **renderer);

@@ -2,6 +2,7 @@
  * so that all of their folder are taken for it. */
 #define _GNU_SOURCE
 #include "cache/belongings.h"
+#include "cache/format.h"
 #include "core/file.h"
 #include "core/memory.h"
 
@@ -40,6 +41,16 @@ bool tc_cache_alone(const char *path)
             return true;
     }
     return false;
+}
+
+bool tc_cache_begins(const char *path)
+{
+    char magic[sizeof(TC_CACHE_MAGIC) - 1];
+    FILE *file = fopen(path, "re");
+    bool same = file && fread(magic, sizeof magic, 1, file) == 1 && memcmp(magic, TC_CACHE_MAGIC, sizeof magic) == 0;
+    if (file)
+        fclose(file);
+    return same;
 }
 
 typedef struct walk {
@@ -118,6 +129,8 @@ static bool fresh(const struct timespec *time, const struct timespec *now)
 /* below: the path from the folder that was asked for */
 static tc_status add_file(walk *w, const char *path, const char *below, const struct stat *info)
 {
+    if (tc_cache_begins(path))
+        return TC_OK;
     if (++w->n > MOST_FILES)
         return tc_fail(w->err, TC_E_FILE,
                        "the dataset's folder holds more than %d files, so what belongs to it cannot be told; give it a "

@@ -1,5 +1,6 @@
 /* file.c: a prepared mesh in a file, and back (layout: format.h). */
 #define _GNU_SOURCE
+#include "cache/belongings.h"
 #include "cache/format.h"
 #include "core/file.h"
 #include "core/memory.h"
@@ -110,16 +111,11 @@ static tc_status describe(char **out, size_t *n, const tc_mesh *m, tc_error *err
 /* May path be written over? Not if it is somebody's file that was given by mistake. */
 static bool ours(const char *path)
 {
-    char magic[sizeof(TC_CACHE_MAGIC) - 1];
     size_t n = strlen(path);
     struct stat info;
     if (stat(path, &info) != 0 || info.st_size == 0 || (n > 8 && strcasecmp(path + n - 8, ".tccache") == 0))
         return true;
-    FILE *file = fopen(path, "re");
-    bool same = file && fread(magic, sizeof magic, 1, file) == 1 && memcmp(magic, TC_CACHE_MAGIC, sizeof magic) == 0;
-    if (file)
-        fclose(file);
-    return same;
+    return tc_cache_begins(path);
 }
 
 tc_status tc_mesh_save(const tc_mesh *mesh, const char *cache, const tc_cache_key *key, int threads, tc_error *err)

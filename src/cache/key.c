@@ -25,17 +25,32 @@ static void put_program(FILE *stream, const char *path)
         fprintf(stream, "no program\n");
 }
 
+/* The same of a module that lies beside a program. */
+static void put_module(FILE *stream, const char *program, const char *name)
+{
+    const char *slash = program ? strrchr(program, '/') : NULL;
+    char *path = NULL;
+    if (slash && asprintf(&path, "%.*s/%s", (int)(slash - program), program, name) < 0)
+        path = NULL;
+    put_program(stream, path);
+    free(path);
+}
+
 static void put_programs(FILE *stream)
 {
     static const char here; /* an address inside the library */
-    static const char *const helpers[] = {"tetcast-read", "tetcast-convexify"};
+    static const struct {
+        const char *name, *module;
+    } helpers[] = {{"tetcast-read", "tetcast-read-more.so"}, {"tetcast-convexify", NULL}};
     Dl_info library;
     put_program(stream, dladdr(&here, &library) != 0 ? library.dli_fname : NULL);
     for (size_t i = 0; i < sizeof helpers / sizeof *helpers; i++) {
         char *path;
-        if (tc_locate_helper(&path, helpers[i], NULL) != TC_OK)
+        if (tc_locate_helper(&path, helpers[i].name, NULL) != TC_OK)
             path = NULL;
         put_program(stream, path);
+        if (helpers[i].module)
+            put_module(stream, path, helpers[i].module);
         free(path);
     }
 }
@@ -52,7 +67,8 @@ static void put_settings(FILE *stream, const tc_read_options *read, const tc_pre
         fprintf(stream, "time %a\n", read->time);
     if (read->has_step)
         fprintf(stream, "step %d\n", read->step);
-    fprintf(stream, "reentry %d, limit %a\n", (int)prepare->reentry, prepare->convexify_limit_s);
+    fprintf(stream, "reentry %d, limit %a, once %zu\n", (int)prepare->reentry, prepare->convexify_limit_s,
+            prepare->once_pixels);
 }
 
 /* What lies with a file: in the folder of its name, and, where that is a link, in that of the file itself. */

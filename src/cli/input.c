@@ -104,7 +104,8 @@ tc_read_options tc_input_read_options(const tc_input_options *options)
 
 tc_prepare_options tc_input_prepare_options(const tc_input_options *options)
 {
-    return (tc_prepare_options){.reentry = (tc_reentry)options->reentry, .threads = options->threads, .once_pixels = options->once_pixels};
+    return (tc_prepare_options){
+        .reentry = (tc_reentry)options->reentry, .threads = options->threads, .once_pixels = options->once_pixels};
 }
 
 int tc_input_load(tc_mesh **out, double *ms_read, const tc_input_options *options, const char *input, tc_talk *talk)

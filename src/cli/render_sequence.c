@@ -14,13 +14,14 @@ typedef struct tc_sequence {
     tc_render_command options; /* of the step at hand: its number, its files */
     const char *output, *error_image;
     size_t n;
-    int *step;       /* [n] */
-    double *time;    /* [n]; NAN where the file has no times */
-    char **name;     /* [2][n] of the pictures, then of the images of errors, or NULL */
-    tc_mesh *mesh;   /* of the step that was read last */
-    double ms_read;  /* of it */
-    bool moved;      /* its mesh is not the one before */
-    double range[2]; /* of the values of all steps */
+    int *step;          /* [n] */
+    double *time;       /* [n]; NAN where the file has no times */
+    char **name;        /* [2][n] of the pictures, then of the images of errors, or NULL */
+    tc_mesh *mesh;      /* of the step that was read last */
+    double ms_read;     /* of it */
+    tc_input_seen seen; /* how the first was come by */
+    bool moved;         /* its mesh is not the one before */
+    double range[2];    /* of the values of all steps */
     bool has_range;
     double ms_ranges; /* NAN: no pass over the values */
     tc_transfer *tf;
@@ -188,6 +189,8 @@ static int tc_step_render(tc_sequence *s, size_t i, bool set_up, tc_talk *talk, 
     s->options.output = s->name[i];
     s->options.error_image = s->name[s->n + i];
     run.mesh = s->mesh;
+    if (i == 0)
+        run.seen = s->seen;
     tc_mesh_get_report(&run.report, run.mesh);
     if (!set_up) /* these were measured in an earlier step */
         run.report.ms_check = run.report.ms_adjacency = run.report.ms_order = run.report.ms_convexify = NAN;
@@ -236,9 +239,8 @@ static int tc_stats_end(tc_sequence *s, tc_talk *talk)
 
 static int tc_sequence_run(tc_sequence *s, tc_talk *talk, int argc, char **argv)
 {
-    tc_input_seen seen;
-    int code = tc_input_open(&s->mesh, &seen, &s->options.source, s->options.input, talk);
-    s->ms_read = seen.ms_read;
+    int code = tc_input_open(&s->mesh, &s->seen, &s->options.source, s->options.input, talk);
+    s->ms_read = s->seen.ms_read;
     if (s->mesh)
         tc_source_notes_say(s->mesh, s->options.input, talk);
     if (code < 0)
@@ -282,8 +284,6 @@ int tc_render_sequence(const tc_render_command *options, tc_talk *talk, int argc
                      .error_image = options->error_image,
                      .ms_ranges = NAN,
                      .failed = -1};
-    if (options->source.cache || options->source.cache_file)
-        tc_talk_warning(talk, "--cache is without effect with several steps, which share what is prepared");
     s.options.source.keep_reader = true;
     s.options.source.has_step = options->steps.has_from;
     s.options.source.step = options->steps.from;

@@ -87,7 +87,7 @@ static void tc_put(tc_text *text, const char *piece, size_t length)
 static size_t tc_digits(int *out, const char *text, int most)
 {
     size_t n = strspn(text, "0123456789");
-    *out = n > 0 ? atoi(text) : -1;
+    *out = n > 0 && n <= TC_DIGITS ? atoi(text) : -1;
     return n <= TC_DIGITS && *out <= most ? n : SIZE_MAX;
 }
 

@@ -79,6 +79,22 @@ wrong 2 "--stats and a picture are one file" --step : -o "a{step}.png" --stats a
 run 2 render synth:ball:300 --step : -o b.png
 says "has no time steps"
 
+# The first step's mesh comes from a cache file, of any name and where the dataset is; the values of the others are put onto it.
+mkdir set
+cp 0.vtu 1.vtu 2.vtu 3.vtu run.pvd set
+sleep 0.1 # younger files are not believed
+run 0 render set/run.pvd $small --step 0:2 -o "n{step}.exr"
+for name in miss hit; do
+    run 0 render set/run.pvd $small --step 0:2 -o "$name{step}.exr" --cache-file set/kept --stats $name.json
+    stderr_empty
+    for step in 0 1 2; do
+        run 0 compare "n$step.exr" "$name$step.exr" --warn 0
+    done
+done
+json miss.json eq steps.0.cache.hit false has steps.0.cache.save_ms eq steps.0.cache.file set/kept lacks steps.1.cache
+json hit.json eq steps.0.cache.hit true has steps.0.cache.load_ms lacks steps.0.time_ms.read lacks steps.0.time_ms.check \
+    has steps.1.time_ms.read eq steps.1.set_up values lacks steps.1.cache
+
 # A step that fails names itself, and leaves the pictures before it.
 echo '<VTKFile type="Collection"><Collection><DataSet timestep="0" file="0.vtu"/><DataSet timestep="1" file="gone.vtu"/>
 </Collection></VTKFile>' >gone.pvd

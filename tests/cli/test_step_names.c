@@ -74,6 +74,8 @@ static void a_name_is_not_that_of_its_pattern(void **state)
         {"{time:.2d}.png", NULL},
         {"{time:999f}.png", NULL},
         {"{time:.99f}.png", NULL},
+        {"{step:99999999999999999999d}.png", NULL},
+        {"{time:.99999999999999999999f}.png", NULL},
         {"{step.png", NULL},
         {"{steps}.png", NULL},
         {"step}.png", NULL},

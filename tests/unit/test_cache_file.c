@@ -339,6 +339,8 @@ static void content_and_settings_are_in_the_key(void **state)
             assert_false(same(other[i], other[j]));
     }
     assert_false(same(key, key_of(mesh_path, &heat, NULL)));
+    const tc_prepare_options once = {.once_pixels = 512 * 512};
+    assert_false(same(key_of(mesh_path, &heat, NULL), key_of(mesh_path, &heat, &once)));
     /* What changes no result is not in it. */
     const tc_read_options patient = {.field = "heat", .idle_limit_s = 5};
     const tc_prepare_options threads = {.reentry = TC_REENTRY_PEEL, .threads = 1};
@@ -425,6 +427,33 @@ static tc_cache_key key_after_rest(const char *name)
     return key;
 }
 
+/* What makes meshes of files: the program that reads, and the module that it loads for some formats. */
+static void another_build_of_the_reader_is_in_the_key(void **state)
+{
+    (void)state;
+    static const char *const parts[] = {"tetcast-read", "tetcast-read-more.so"};
+    const char *helpers = getenv("TETCAST_HELPERS");
+    char *before = helpers ? strdup(helpers) : NULL, path[500];
+    tc_cache_key key = key_of(mesh_path, &heat, &peel), next;
+    assert_int_equal(setenv("TETCAST_HELPERS", folder, 1), 0);
+    for (int i = 0; i < 2; i++)
+        for (int build = 0; build < 2; build++) {
+            put(parts[i], build ? "another build" : "one build", 100);
+            snprintf(path, sizeof path, "%s/%s", folder, parts[i]);
+            assert_int_equal(chmod(path, i == 0 ? 0755 : 0644), 0);
+            next = key_of(mesh_path, &heat, &peel);
+            if (same(key, next))
+                fail_msg("%s, build %d", parts[i], build);
+            assert_true(same(next, key_of(mesh_path, &heat, &peel)));
+            key = next;
+        }
+    if (before)
+        setenv("TETCAST_HELPERS", before, 1);
+    else
+        unsetenv("TETCAST_HELPERS");
+    free(before);
+}
+
 static void every_file_of_a_dataset_is_in_the_key(void **state)
 {
     (void)state;
@@ -461,6 +490,13 @@ static void every_file_of_a_dataset_is_in_the_key(void **state)
     put("all.png", "a picture", 100);
     put("all.case.tccache", "a cache", 100);
     put("numbers.json", "{}", 100);
+    put("parts/kept", TC_CACHE_MAGIC "and what a cache holds", 0);
+    assert_int_equal(try_key(&next, "all.case", &err), TC_OK);
+    assert_true(same(key, next));
+    put("parts/kept", "tccache, but not quite", 100);
+    assert_false(same(key, key_after_rest("all.case")));
+    snprintf(path, sizeof path, "%s/parts/kept", folder);
+    assert_int_equal(unlink(path), 0);
     assert_true(same(key, key_after_rest("all.case")));
 
     put("parts/all.sca", "VALUES!", 0); /* changed now: the next change may get the same time */
@@ -507,6 +543,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(no_other_file_is_written_over, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(content_and_settings_are_in_the_key, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(a_file_alone_does_not_depend_on_what_lies_beside_it, make_folder, drop_folder),
+        cmocka_unit_test_setup_teardown(another_build_of_the_reader_is_in_the_key, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(every_file_of_a_dataset_is_in_the_key, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(a_dataset_that_names_files_elsewhere_has_no_key, make_folder, drop_folder),
     };
