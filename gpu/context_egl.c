@@ -56,9 +56,11 @@ static void close_display(egl_state *s)
     s->display = EGL_NO_DISPLAY;
 }
 
+/* The API is that of the calling thread, which need not be the one that made the context. */
 static tc_status egl_make_current(tc_context *context, tc_error *err)
 {
     egl_state *s = context->state;
+    s->bind_api(EGL_OPENGL_API);
     if (!s->make_current(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context))
         return tc_fail(err, TC_E_GL, "EGL refused to make a context without a surface current");
     return TC_OK;
@@ -155,6 +157,7 @@ static tc_status egl_create(tc_context *context, tc_error *err)
 static void egl_release(tc_context *context)
 {
     egl_state *s = context->state;
+    s->bind_api(EGL_OPENGL_API);
     s->make_current(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 

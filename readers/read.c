@@ -327,10 +327,10 @@ static tc_status ask(tc_reply *reply, tc_worker **worker, const char *path, cons
         status = tc_worker_start(worker, "tetcast-read", &limits, err);
     if (!status)
         status = tc_worker_call(reply, *worker, request, NULL, 0, log, err);
-    if (status == TC_E_WORKER && *worker) {
+    if (status == TC_E_WORKER && *worker)
         tc_fail_prefix(err, status, "%s could not be read, it is probably damaged: ", path);
+    if (status && status != TC_E_FILE)
         tc_worker_stop(worker);
-    }
     json_decref(request);
     return status;
 }

@@ -3,6 +3,7 @@
 #include "image/png.h"
 
 #include "core/memory.h"
+#include "core/wire.h"
 #include "image/image.h"
 
 #include <math.h>
@@ -93,21 +94,27 @@ static bool opaque(const tc_image *image)
     return true;
 }
 
-/* tEXt of ASCII, iTXt (not compressed) of other UTF-8; keys as they are given, which png_set_text would not keep. */
+/* tEXt of ASCII, iTXt (not compressed) of other UTF-8; keys as they are given, which png_set_text would not keep. What
+ * of a value is not UTF-8 becomes '?', as in the other formats. */
 static tc_status put_text(png_structp png, encoder *e, const tc_text_pair *pair)
 {
-    size_t n_key = strlen(pair->key), n_value = strlen(pair->value), n_gap = 1;
+    json_t *text = tc_wire_string(pair->value);
+    const char *value = text ? json_string_value(text) : "";
+    size_t n_key = strlen(pair->key), n_value = strlen(value), n_gap = 1;
     for (size_t i = 0; i < n_value; i++)
-        if ((unsigned char)pair->value[i] >= 0x80)
+        if ((unsigned char)value[i] >= 0x80)
             n_gap = 5; /* end of key, not compressed, method, no language, no translated key */
     size_t n = n_key + n_gap + n_value;
-    uint8_t *body = tc_calloc(n, 1);
+    uint8_t *body = text ? tc_calloc(n, 1) : NULL;
+    if (body) {
+        memcpy(body, pair->key, n_key);
+        memcpy(body + n_key + n_gap, value, n_value);
+    }
+    json_decref(text);
     if (!body) {
         e->out_of_memory = true;
         return TC_E_MEMORY;
     }
-    memcpy(body, pair->key, n_key);
-    memcpy(body + n_key + n_gap, pair->value, n_value);
     free(e->row); /* held there, so that it is freed where libpng jumps */
     e->row = body;
     png_write_chunk(png, (png_const_bytep)(n_gap == 1 ? "tEXt" : "iTXt"), body, n);

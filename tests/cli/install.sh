@@ -13,6 +13,10 @@ run 0 --version
 run 0 synth heatsink --cells 2000 -o sink.vtu
 run 0 render sink.vtu --size 16x16 --reentry convexify -o a.exr # needs all three helpers
 there a.exr
+printf 'FORMAT\ntype: ensight gold\nGEOMETRY\nmodel: a.geo\n' >a.case # needs the module beside tetcast-read
+run 1 info a.case
+says "a.case"
+says_not "cannot be loaded"
 
 if [ "${TC_SANITIZE:-OFF}" = ON ]; then
     echo "sanitizers: a plain C program cannot load the library first; that part is left out"

@@ -335,6 +335,24 @@ static void png_texts_have_wrong_check_sums(void **state)
     tc_image_destroy(&image);
 }
 
+/* A byte that is not UTF-8 may not be in an iTXt, and tEXt would mean Latin-1. */
+static void png_texts_hold_what_is_not_utf8(void **state)
+{
+    (void)state;
+    const tc_text_pair pair[] = {{"plain", "fin\xff.vtu \xc3"}, {"other", "J\xc3\xb6rg \xfe."}};
+    static const char plain[] = "tEXtplain\0fin?.vtu ?", other[] = "iTXtother\0\0\0\0\0J\xc3\xb6rg ?.";
+    tc_image *image = noise(8, 8);
+    tc_error err = {0};
+    void *data;
+    size_t n;
+    must(tc_image_writer_write(writer, image, in_folder("a.png"), NULL, pair, 2, NULL, &err), &err);
+    must(tc_file_read(&data, &n, in_folder("a.png"), &err), &err);
+    assert_non_null(memmem(data, n, plain, sizeof plain - 1));
+    assert_non_null(memmem(data, n, other, sizeof other - 1));
+    free(data);
+    tc_image_destroy(&image);
+}
+
 static void assert_refused(const tc_image *image, const char *path, tc_status code, const char *part)
 {
     tc_error err = {0};
@@ -509,6 +527,7 @@ int main(void)
         TEST(glow_without_opacity_vanishes_from_png_silently),
         TEST(texts_do_not_come_back),
         TEST(png_texts_have_wrong_check_sums),
+        TEST(png_texts_hold_what_is_not_utf8),
         TEST(what_cannot_be_written_is_not_refused_in_words),
         TEST(a_full_device_is_not_told),
         TEST(what_is_no_image_is_read),

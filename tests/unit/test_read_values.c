@@ -8,6 +8,7 @@
 #include "read_files.h"
 
 #include <math.h>
+#include <sys/resource.h>
 
 /* Two cubes and a tet on top; shift moves the last point. */
 static void make_grid(grid *g, double shift)
@@ -209,6 +210,29 @@ static void a_seam_that_opens_keeps_one_value(void **state)
     unlink(open);
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) /* they need address space themselves */
+/* An answer that finds no memory ends the reader; the mesh gets another one. */
+static void a_reader_that_was_put_down_is_asked_again(void **state)
+{
+    const files *f = *state;
+    tc_mesh *mesh = read_prepared(f->list, step_of("P", 0), true);
+    const tc_read_options second = step_of("P", 1);
+    tc_error err = {0};
+    struct rlimit before;
+    assert_non_null(mesh->reader);
+    assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
+    const struct rlimit none = {.rlim_cur = 1, .rlim_max = before.rlim_max};
+    assert_int_equal(setrlimit(RLIMIT_AS, &none), 0);
+    const tc_status status = tc_mesh_read_values(NULL, mesh, f->list, &second, NULL, &err);
+    assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
+    assert_int_equal(status, TC_E_MEMORY);
+    assert_null(mesh->reader);
+    assert_int_equal(mesh->source->step, 0);
+    assert_int_equal(tc_mesh_read_values(NULL, mesh, f->list, &second, NULL, &err), TC_OK);
+    tc_mesh_destroy(&mesh);
+}
+#endif
+
 static void a_failure_changes_the_mesh(void **state)
 {
     const files *f = *state;
@@ -251,6 +275,9 @@ int main(void)
         cmocka_unit_test(other_cells_are_taken_for_the_same),
         cmocka_unit_test(a_seam_that_opens_keeps_one_value),
         cmocka_unit_test(a_failure_changes_the_mesh),
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+        cmocka_unit_test(a_reader_that_was_put_down_is_asked_again),
+#endif
         cmocka_unit_test(a_mesh_that_was_not_read_takes_a_file),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
