@@ -40,7 +40,7 @@ def measure(options):
     """Set-up and frame time against the number of cells."""
     bare = shader_folder(options, "bare", bare=True)
     variants = {"default": "", "no stop": "opacity-stop=1", "bare walk": f"shaders={bare},opacity-stop=1"}
-    rows, left_out, bars, fits = [], [], [], {}
+    rows, left_out, failed, bars, fits = [], [], [], [], {}
     print(f"  {'mesh':<10}{'cells':>10}{'set-up us/tet':>15}{'gaps':>8}{'frame ms':>10}{'no stop':>10}{'bare walk':>10}{'steps/ray':>10}"
           f"{'peak GiB':>10}")
     for generator, sizes in (QUICK if options.quick else SIZES).items():
@@ -51,9 +51,13 @@ def measure(options):
                 continue
             try:
                 row = one(options, generator, cells, variants)
-            except Failure as failure:
-                left_out.append(f"{generator} of {cells} tets: {failure}")
+            except Absent as absent:
+                left_out.append(f"{generator} of {cells} tets: {absent}")
                 print(f"  left out: {left_out[-1]}")
+                continue
+            except Failure as failure:
+                failed.append(f"{generator} of {cells} tets: {failure}")
+                print(f"  failed: {failed[-1]}")
                 continue
             rows.append(row)
             print(f"  {generator:<10}{row['cells']:>10}{row['setup_us_per_tet']:>15.3f}"
@@ -76,6 +80,8 @@ def measure(options):
     for name, value in fits.items():
         if value is not None:
             print(f"  frame time of {name}: cells^{value:.3f}")
+    if failed:
+        raise Failure("; ".join(failed))
     if not rows:
-        raise Failure("; ".join(left_out))
+        raise Absent("; ".join(left_out))
     return {"rows": rows, "fits": fits, "left_out": left_out, "threads": options.threads, "size": options.size}, bars
