@@ -14,10 +14,11 @@ void tc_job_defines(char *out, size_t capacity, const tc_job *job)
 {
     bool running = job->integrator == TC_INTEGRATOR_INTEGRAL;
     const int ints = job->mesh ? job->mesh->cell_ints : 1;
-    snprintf(out, capacity, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s", job->has_imaginary ? "#define HAS_IMAGINARY\n" : "",
-             job->peel ? "#define PEEL\n" : "", job->cell_data ? "#define CELL_DATA\n" : "",
-             job->extend ? "#define TF_EXTEND\n" : "", job->frame->clip_near ? "#define CLIP_NEAR\n" : "",
-             job->frame->clip_far ? "#define CLIP_FAR\n" : "", job->frame->ahead ? "#define ENTRY_AHEAD\n" : "",
+    snprintf(out, capacity, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s",
+             job->has_imaginary ? "#define HAS_IMAGINARY\n" : "", job->peel ? "#define PEEL\n" : "",
+             job->cell_data ? "#define CELL_DATA\n" : "", job->extend ? "#define TF_EXTEND\n" : "",
+             job->frame->clip_near ? "#define CLIP_NEAR\n" : "", job->frame->clip_far ? "#define CLIP_FAR\n" : "",
+             job->frame->ahead ? "#define ENTRY_AHEAD\n" : "",
              tc_job_holds_depth(job) ? "#define COLOR_HOLDS_DEPTH\n" : "", job->count ? "#define COUNT\n" : "",
              job->audit ? "#define AUDIT\n" : "", job->nonfinite ? "#define NONFINITE\n" : "",
              job->steps ? "#define TF_STEPS\n" : "", job->has_nan_color ? "#define NAN_COLOR\n" : "",

@@ -63,7 +63,7 @@ typedef struct tc_job_result {
     double ms_first_hit, ms_march;
     int passes, z_updates, layers; /* passes: dispatches of compute */
     int64_t rays, rays_lost;
-    int last;      /* the state set that holds what the rays have gathered; counting: set 0 */
+    int last;      /* the state set that holds the rays at their ends, walk and colour; counting: set 0 */
     int64_t twice; /* without peeling: entries beyond the first of their rays; if there are any, no picture was made */
     int64_t *fragments; /* [passes], only when counting; caller frees */
 } tc_job_result;

@@ -9,7 +9,7 @@
 enum { UNIT_NODES = 2, UNIT_TABLE = 8 };
 /* Of the paper's arithmetic, four each: as textures, and as images, of which there are fewer (stepper_planes.glsl). */
 enum { UNIT_PLANES = 12, IMAGE_PLANES = 4 };
-enum { UNIT_PIECES = 10, IMAGE_PIECES = 3 };
+enum { UNIT_PIECES = 10, UNIT_PIECE_FLOATS = 11, IMAGE_PIECES = 3, IMAGE_PIECE_FLOATS = 13 }; /* 8 to 12: compute.c */
 
 tc_status tc_march_program(GLuint *program, const tc_job *job, const char *vertex, const char *file, tc_error *err)
 {
@@ -36,6 +36,8 @@ static void bind_pieces(const tc_job *job, GLuint program)
         half *= 2;
     tc_pass_fetch(gl, program, "tf_pieces", job->software ? IMAGE_PIECES : UNIT_PIECES, GL_RGBA32F,
                   job->transfer->pieces.texture, job->software);
+    tc_pass_fetch(gl, program, "tf_piece_floats", job->software ? IMAGE_PIECE_FLOATS : UNIT_PIECE_FLOATS, GL_R32F,
+                  job->transfer->piece_floats, job->software);
     tc_pass_int(gl, program, "tf_piece_count", job->n_piece);
     tc_pass_int(gl, program, "tf_piece_half", half);
 }

@@ -81,7 +81,7 @@ static void find_frame(tc_pack *pack, const box *part, size_t n_part)
     pack->scale = d2 > 0 && isfinite(1 / d2) ? 1 / d2 : 1;
 }
 
-/* x mapped; NaN where it is not finite: march.frag leaves out what it reaches. */
+/* x mapped; NaN where it is not finite: march.glsl leaves out what it reaches. */
 static float map_scalar(double x, double lo, double hi)
 {
     return isfinite(x) ? (float)tc_place(x, lo, hi) : NAN;

@@ -3,7 +3,8 @@
  * Each pass reads one set of state textures and writes the other. After every z_update_every passes (an even number, so
  * that the final state of a finished ray stands in set 0) a z-update pass locks finished rays by depth; the occlusion
  * query around it counts them. A query's result is asked for only when it is there: the loop stays two passes ahead of
- * the last z-update. */
+ * the last z-update. Only where the first pass may finish every ray its count is waited for; then the final state
+ * stands in set 1 (tc_job_result.last). */
 #include "gpu/pingpong.h"
 
 #include "core/memory.h"
@@ -60,8 +61,8 @@ static tc_status prepare_march(loop *l)
     return status;
 }
 
-/* Issues a pass whose query counts the rays of a set that are finished, and not locked; with `locks`, the z-update, which
- * locks them. */
+/* Issues a pass whose query counts the rays of a set that are finished, and not locked; with `locks`, the z-update,
+ * which locks them. */
 static void issue_count(loop *l, int set, bool locks)
 {
     const tc_gl *gl = l->job->gl;
@@ -148,7 +149,8 @@ static tc_status issue_pass(loop *l, int from)
     return TC_OK;
 }
 
-/* Where a pass is long enough for most rays the first may be the last: then none copies what is finished back to set 0. */
+/* Where a pass is long enough for most rays the first may be the last: then none copies what is finished back to set 0.
+ */
 static bool may_do_in_one(const tc_job *job)
 {
     return job->software && !job->peel && !job->count && job->steps_per_pass >= ONE_PASS_STEPS;
@@ -238,7 +240,7 @@ static int64_t count_given_up(loop *l)
     gl->BindFramebuffer(GL_FRAMEBUFFER, l->job->state->lock_framebuffer);
     gl->Disable(GL_DEPTH_TEST);
     gl->UseProgram(l->lost);
-    tc_pass_texture(gl, l->lost, "state_walk", TC_UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[0].walk);
+    tc_pass_texture(gl, l->lost, "state_walk", TC_UNIT_WALK, GL_TEXTURE_2D, l->job->state->set[l->result->last].walk);
     gl->BeginQuery(GL_SAMPLES_PASSED, l->lock_query);
     tc_pass_screen(gl);
     gl->EndQuery(GL_SAMPLES_PASSED);

@@ -19,10 +19,10 @@ enum {
     AUTO_STEPS_SOFTWARE = 512, /* where a pass costs next to nothing: most rays end in the first */
     AUTO_STEPS_HARDWARE = 64,
     AUTO_STEPS_NO_PASSES = 4096, /* where rays are walked to their ends: more than most make, in less than seconds */
-    SOFTWARE_ROUNDS = 60000, /* of loops in one invocation, within llvmpipe's limit */
-    SPLIT_MOST = 256,        /* integrate_integral.glsl's */
-    ROUNDS_BESIDE = 100,     /* a step's own, besides those of integrate_exact.glsl for each piece */
-    ROUNDS_PLAIN = 3,        /* a step's own where there are no others: it may leave every loop of march.glsl */
+    SOFTWARE_ROUNDS = 60000,     /* of loops in one invocation, within llvmpipe's limit */
+    SPLIT_MOST = 256,            /* integrate_integral.glsl's */
+    ROUNDS_BESIDE = 100,         /* a step's own, besides those of integrate_exact.glsl for each piece */
+    ROUNDS_PLAIN = 3,            /* a step's own where there are no others: it may leave every loop of march.glsl */
     AUTO_Z_SMALL = 4 /* for few steps a pass; Weiler et al. 2003, 5.2, found 14 best: 3 to 6 % more fragments here */
 };
 
@@ -250,8 +250,8 @@ static void fill_stats(tc_render_stats *stats, const tc_gpu_renderer *r, const t
     stats->gpu_bytes_mesh =
         (double)(r->mesh.cells.bytes + r->mesh.vertices.bytes + r->mesh.planes_vertices.bytes +
                  r->mesh.planes_normals.bytes + r->mesh.planes_neighbours.bytes + r->mesh.planes_scalars.bytes);
-    stats->gpu_bytes_other =
-        (double)(r->mesh.faces.bytes + r->mesh.cell_scalar.bytes + tc_first_hit_corners(r->proposals.n) * sizeof *r->proposals.corner);
+    stats->gpu_bytes_other = (double)(r->mesh.faces.bytes + r->mesh.cell_scalar.bytes +
+                                      tc_first_hit_corners(r->proposals.n) * sizeof *r->proposals.corner);
     stats->gpu_bytes_table = (double)r->transfer.textures.bytes;
     stats->gpu_bytes_state = (double)r->state.bytes;
     stats->steps_per_pass = job->steps_per_pass;

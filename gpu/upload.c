@@ -240,6 +240,12 @@ tc_status tc_gpu_pieces_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_p
     tc_status status = upload_buffer(&out->pieces, gl, pieces->end, 3 * (pieces->n + 1), 16, GL_RGBA32F,
                                      "uploading the pieces of a transfer function", err);
     out->bytes += out->pieces.bytes;
+    if (status == TC_OK) {
+        gl->GenTextures(1, &out->piece_floats);
+        gl->BindTexture(GL_TEXTURE_BUFFER, out->piece_floats);
+        gl->TexBuffer(GL_TEXTURE_BUFFER, GL_R32F, out->pieces.buffer);
+        status = tc_gl_check(gl, "uploading the pieces of a transfer function", err);
+    }
     if (status != TC_OK)
         tc_gpu_transfer_finish(out, gl);
     return status;
@@ -250,6 +256,8 @@ void tc_gpu_transfer_finish(tc_gpu_transfer *transfer, const tc_gl *gl)
     if (transfer->table)
         gl->DeleteTextures(1, &transfer->table);
     finish_buffer(&transfer->nodes, gl);
+    if (transfer->piece_floats)
+        gl->DeleteTextures(1, &transfer->piece_floats);
     finish_buffer(&transfer->pieces, gl);
     memset(transfer, 0, sizeof *transfer);
 }

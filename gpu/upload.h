@@ -43,6 +43,7 @@ void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl);
 typedef struct tc_gpu_transfer {
     GLuint table;
     tc_texture_buffer nodes, pieces;
+    GLuint piece_floats; /* the same as pieces, a float a texel: one of them is read for less */
     size_t bytes;
 } tc_gpu_transfer;
 

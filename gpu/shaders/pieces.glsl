@@ -9,11 +9,12 @@
 // |d| <= t. As e^-q lies between E and 1 so does M: the colour never exceeds opacity times the larger colour.
 //
 // A round is one such piece. Rays of one group need different numbers of them; in a loop inside the loop over steps all
-// would wait for the one that needs most, at every step. So march.frag has one loop, in whose rounds every ray adds a piece,
+// would wait for the one that needs most, at every step. So march.glsl has one loop, in whose rounds every ray adds a piece,
 // and those whose segment is done make a step first.
 #include "integrate_depth.glsl"
 
 FETCH_BUFFER(3) tf_pieces; // three an end of pieces: x; r g b a below; those above, which differ at a step
+FETCH_FLOATS(13) tf_piece_floats; // the same, float by float
 uniform int tf_piece_count;
 uniform int tf_piece_half; // a power of two, at least half the count
 
@@ -33,7 +34,7 @@ struct Place {
 
 float piece_end(int end)
 {
-    return fetch(tf_pieces, 3 * end).x;
+    return fetch(tf_piece_floats, 12 * end).x;
 }
 
 vec4 piece_below(int end)

@@ -71,7 +71,7 @@ tc_hash tc_hash_bytes(const void *data, size_t n, uint64_t seed)
 /* --------------------------------------------------------------------------------------------------- in blocks */
 
 typedef struct blocks {
-    tc_hash *hash; /* [blocks] */
+    tc_hash *hash;             /* [blocks] */
     const unsigned char *data; /* NULL: from fd */
     unsigned char *into;
     int fd;
@@ -104,8 +104,10 @@ static void hash_blocks(void *context, size_t begin, size_t end, int worker)
         if (!from) {
             unsigned char *to = b->into ? b->into + at : own;
             int failed = read_all(b->fd, to, length, b->offset + at);
-            if (failed)
+            if (failed) {
                 atomic_store(&b->failed, failed);
+                return;
+            }
             from = to;
         }
         b->hash[i] = tc_hash_bytes(from, length, i);
@@ -139,7 +141,8 @@ tc_status tc_hash_read(tc_hash *out, void *into, int fd, uint64_t offset, size_t
     tc_status status = hash_all(out, &b, threads, err);
     int failed = status == TC_OK ? atomic_load(&b.failed) : 0;
     if (failed)
-        return tc_fail(err, TC_E_FILE, "%s cannot be read: %s", name, failed > 0 ? strerror(failed) : "it is cut short");
+        return tc_fail(err, TC_E_FILE, "%s cannot be read: %s", name,
+                       failed > 0 ? strerror(failed) : "it is cut short");
     return status;
 }
 

@@ -1,8 +1,8 @@
 /* adjacency.c: which tets share a face.
- * Faces are put into parts by ranges of their smallest vertex id, one pass over the tets by the threads together. Each part,
- * small enough for a core's cache, is then linked by one thread through a hash table of its faces; parts with faces
- * that more than two tets share, or with equal tets, are sorted instead. With vertices along a space-filling curve the tets
- * of a part lie close together in memory. */
+ * Faces are put into parts by ranges of their smallest vertex id, one pass over the tets by the threads together. Each
+ * part, small enough for a core's cache, is then linked by one thread through a hash table of its faces; parts with
+ * faces that more than two tets share, or with equal tets, are sorted instead. With vertices along a space-filling
+ * curve the tets of a part lie close together in memory. */
 #include "mesh/adjacency.h"
 
 #include "core/memory.h"

@@ -29,7 +29,8 @@ typedef struct tc_adjacency_input {
  *   duplicate [n_tet] or NULL: set to 1 for each tet equal to an earlier one, else 0
  * Only faces with equal vertex sets on opposite sides are linked, so the result is an involution. Sides are told by
  * orientation: two positive tets on opposite sides wind their common face in opposite senses.
- * Errors: TC_E_MEMORY. Cost: O(n_tet) time, 9 B/tet scratch, threaded; the result does not depend on
+ * Errors: TC_E_MEMORY. Cost: O(n_tet) time, 9 B/tet scratch and, for each thread, some 100 B
+ * for each tet of the part of the faces at hand (of few vertices, or where most tets share one, nearly all), threaded; the result does not depend on
  * the threads. */
 tc_status tc_adjacency_build(int32_t *neighbour, uint8_t *duplicate, tc_adjacency_result *result,
                              const tc_adjacency_input *input, tc_error *err);

@@ -36,6 +36,7 @@ struct tc_mesh {
 
     bool prepared;
     tc_reentry asked;       /* by the last tc_mesh_prepare */
+    size_t once_peeled;     /* as of the options by which it peels for one picture; 0: otherwise */
     bool gaps_may_do;       /* they were not filled since a helper failed, which it may not do another time */
     uint64_t serial;        /* changes with geometry: a renderer uploads again when it does */
     uint64_t scalar_serial; /* changes with values */

@@ -4,7 +4,8 @@
 
 #include "mesh/mesh.h"
 
-/* Position of cell (x, y, z), 21 bits each, on a Hilbert curve through the 2^21 cube: 63 bits. */
+/* Position of cell (x, y, z), 21 bits each, on a Hilbert curve through the 2^21 cube: 63 bits. One at a time, for tests of
+ * what the order is made with. */
 uint64_t tc_hilbert(uint32_t x, uint32_t y, uint32_t z);
 
 /* Orders an unlinked mesh: vertices by position, tets by centroid; scalars and maps follow.

@@ -76,9 +76,9 @@ void tc_mesh_say_defects(const tc_log *log, const tc_mesh_report *r)
         tc_say(log, TC_INFO, "%zu cells are there more than once: the copies were dropped", r->dropped_duplicate);
 }
 
-/* Beside the mesh itself, at most: until the arrays it came in are given back, new ones (16 B a tet for its vertices, 4 for
- * where it came from, 36 a vertex) with links (16) and what finds them (10); then, in place of the old ones (16 and 32), what
- * gpu/pack.c and GL's copy of it take (40 and 32). */
+/* Beside the mesh itself, at most: until the arrays it came in are given back, new ones (16 B a tet for its vertices, 4
+ * for where it came from, 36 a vertex) with links (16) and what finds them (10); then, in place of the old ones (16 and
+ * 32), what gpu/pack.c and GL's copy of it take (40 and 32). */
 static size_t memory_of(const tc_mesh *m)
 {
     size_t values = m->association == TC_CELL_DATA ? 8 : 0;
@@ -158,6 +158,7 @@ static tc_status fill_gaps(tc_mesh *m, const tc_prepare_options *o, const tc_log
     tc_mesh_strip(m);
     r->reentry = m->asked = TC_REENTRY_PEEL;
     m->gaps_may_do = false;
+    m->once_peeled = 0;
     r->reentry_why[0] = 0;
     r->ms_convexify = NAN;
     m->serial = tc_mesh_new_serial();
@@ -169,6 +170,7 @@ static tc_status fill_gaps(tc_mesh *m, const tc_prepare_options *o, const tc_log
         tc_boundary_finish(&boundary);
         copy_text(r->reentry_why, sizeof r->reentry_why, "a single picture is there sooner than the gaps are filled");
         tc_say(log, TC_INFO, "re-entry by depth peeling is used: %s", r->reentry_why);
+        m->once_peeled = o->once_pixels;
         return TC_OK; /* m->asked stays PEEL: a later call may fill them */
     }
     if (o->reentry != TC_REENTRY_PEEL && !r->convex) {
@@ -214,11 +216,11 @@ tc_status tc_mesh_prepare(tc_mesh *mesh, const tc_prepare_options *options, cons
     const tc_prepare_options *o = options ? options : &none;
     if ((int)o->reentry < TC_REENTRY_AUTO || (int)o->reentry > TC_REENTRY_PEEL)
         return tc_fail(err, TC_E_ARG, "tc_mesh_prepare: there is no reentry %d", (int)o->reentry);
-    if (mesh->prepared && in_force(mesh, o->reentry))
+    bool again = o->reentry == TC_REENTRY_AUTO && o->once_pixels > 0 && o->once_pixels == mesh->once_peeled;
+    if (mesh->prepared && (again || in_force(mesh, o->reentry)))
         return TC_OK;
     if (!mesh->prepared) {
-        tc_status status =
-            tc_room_check(memory_of(mesh), err, "preparing and rendering %zu tetrahedra", mesh->n_tet);
+        tc_status status = tc_room_check(memory_of(mesh), err, "preparing and rendering %zu tetrahedra", mesh->n_tet);
         if (status != TC_OK)
             return status;
         status = prepare_first(mesh, o, log, err);

@@ -54,8 +54,8 @@ static bool same_value(double a, double b)
 
 enum { CHUNK = 8192 };
 
-/* Points in a hash table with open addressing. A slot that holds a point of some place goes on to hold one of that place, the
- * first that has come by, so that the end does not depend on who came when. */
+/* Points in a hash table with open addressing. A slot that holds a point of some place goes on to hold one of that
+ * place, the first that has come by, so that the end does not depend on who came when. */
 typedef struct merge {
     int32_t *same;
     atomic_int *slot; /* point + 1, or 0 */
@@ -104,18 +104,17 @@ static void leave_range(void *context, size_t begin, size_t end, int worker)
     merge *j = context;
     size_t merged = 0;
     for (size_t v = begin; v < end; v++) {
-        j->same[v] = is_used(j->use, v)
-                         ? atomic_load_explicit(&j->slot[(uint32_t)j->same[v]], memory_order_relaxed) - 1
-                         : (int32_t)v;
+        j->same[v] = is_used(j->use, v) ? atomic_load_explicit(&j->slot[(uint32_t)j->same[v]], memory_order_relaxed) - 1
+                                        : (int32_t)v;
         merged += j->same[v] != (int32_t)v;
     }
     atomic_fetch_add(&j->merged, merged);
 }
 
 /* Points by coordinates.
- *   same [n] gets for each point in use the first such point with equal coordinates (and equal scalar where scalar is not
- *   NULL), for the others the point itself. *merged: how many got another than themselves.
- * Errors: TC_E_MEMORY. Cost: O(n), 8 to 16 B a point of scratch. */
+ *   same [n] gets for each point in use the first such point with equal coordinates (and equal scalar where scalar is
+ * not NULL), for the others the point itself. *merged: how many got another than themselves. Errors: TC_E_MEMORY. Cost:
+ * O(n), 8 to 16 B a point of scratch. */
 static tc_status merge_points(int32_t *same, size_t *merged, const double *vertex, const double *scalar,
                               atomic_uchar *use, size_t n, int threads, tc_error *err)
 {

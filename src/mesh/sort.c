@@ -1,6 +1,7 @@
 /* sort.c: items by 64-bit keys.
- * One pass over all, by the threads together, puts items into bins by the highest bits in which keys differ. Then each bin,
- * small enough for a core's cache, is one thread's: again by its highest bits, and by insertion where few are left. */
+ * One pass over all, by the threads together, puts items into bins by the highest bits in which keys differ. Then each
+ * bin, small enough for a core's cache, is one thread's: again by its highest bits, and by insertion where few are
+ * left. */
 #include "mesh/sort.h"
 
 #include "core/memory.h"
@@ -76,8 +77,8 @@ typedef struct sort {
     items from, to;
     size_t n, block; /* items, and how many of them are a block */
     int shift, bits;
-    uint64_t *differ; /* by block */
-    size_t *start;    /* [block][1 << bits] */
+    uint64_t *differ;  /* by block */
+    size_t *start;     /* [block][1 << bits] */
     const size_t *bin; /* [(1 << bits) + 1] where bins begin */
 } sort;
 

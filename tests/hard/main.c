@@ -1,13 +1,12 @@
 /* main.c: hard: every mesh, view and function of the catalogue, judged by the invariants (docs/stability.md).
  *
  *   hard --context osmesa|egl|reference   where the pictures are made
- *        [--driver pingpong|compute]      by which driver with GL; compute is compared with pingpong on the same
- * context
+ *        [--driver pingpong|compute]      by which driver with GL; compute is compared with pingpong
  *        [--long]                         every view and function with every mesh, larger pictures
  *        [--filter TEXT]                  only cases whose name ("mesh; view; function; relation") holds TEXT
  *        [--list]                         print the cases' names and end
- *        [--size N] [--judged N] [--verified N]   pixels a side; random rays by brute force and pixels by the
- * reference, each case
+ *        [--size N] [--judged N] [--verified N]   pixels a side; of each case random rays by brute force and
+ *                                         pixels by the reference
  *        [--blind N]                      the judge overlooks cell N: the run must fail
  *        [--json FILE] [--table FILE.md] [--write DIR] [--export DIR]
  *

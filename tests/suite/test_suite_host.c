@@ -44,6 +44,9 @@ static void *(*get_proc)(const char *name);
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                               \
     X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                                 \
     X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                           \
+    X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                         \
+    X(PFNGLBINDBUFFERRANGEPROC, BindBufferRange)                                                                       \
+    X(PFNGLGETINTEGER64I_VPROC, GetInteger64i_v)                                                                       \
     X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                                 \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                                                 \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                                       \
@@ -363,7 +366,17 @@ static const struct {
 };
 enum { N_SWITCH = sizeof switches / sizeof *switches };
 
+/* Buffers at numbered bindings. */
+static const struct {
+    GLenum target, general, start, size;
+} indexed[] = {{GL_ATOMIC_COUNTER_BUFFER, GL_ATOMIC_COUNTER_BUFFER_BINDING, GL_ATOMIC_COUNTER_BUFFER_START,
+                GL_ATOMIC_COUNTER_BUFFER_SIZE},
+               {GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
+                GL_SHADER_STORAGE_BUFFER_SIZE}};
+enum { N_INDEXED = sizeof indexed / sizeof *indexed };
+
 typedef struct state_of_gl {
+    GLint64 bound[N_INDEXED][4]; /* in general; at 0, from where, how much */
     GLint value[N_QUERY][4], texture[N_UNIT][4], sampler[N_UNIT], image[N_IMAGE][2];
     GLboolean on[N_SWITCH];
     GLfloat depth_range[2];
@@ -388,6 +401,15 @@ static void take_state(state_of_gl *s)
         gl.GetIntegerv(GL_SAMPLER_BINDING, &s->sampler[i]);
     }
     gl.ActiveTexture((GLenum)active);
+    for (int i = 0; i < N_INDEXED; i++) {
+        GLint general, first;
+        gl.GetIntegerv(indexed[i].general, &general);
+        gl.GetIntegeri_v(indexed[i].general, 0, &first);
+        s->bound[i][0] = general;
+        s->bound[i][1] = first;
+        gl.GetInteger64i_v(indexed[i].start, 0, &s->bound[i][2]);
+        gl.GetInteger64i_v(indexed[i].size, 0, &s->bound[i][3]);
+    }
     for (GLuint i = 0; i < N_IMAGE; i++) {
         gl.GetIntegeri_v(GL_IMAGE_BINDING_NAME, i, &s->image[i][0]);
         gl.GetIntegeri_v(GL_IMAGE_BINDING_FORMAT, i, &s->image[i][1]);
@@ -414,6 +436,11 @@ static int differences(const state_of_gl *before, const state_of_gl *after)
                (double)before->depth_range[1], (double)after->depth_range[0], (double)after->depth_range[1]);
         wrong++;
     }
+    for (int i = 0; i < N_INDEXED; i++)
+        if (memcmp(before->bound[i], after->bound[i], sizeof before->bound[i]) != 0) {
+            printf("    the buffers of binding %d of target %#x are others\n", 0, indexed[i].target);
+            wrong++;
+        }
     for (int i = 0; i < N_UNIT; i++)
         if (memcmp(before->texture[i], after->texture[i], sizeof before->texture[i]) != 0 ||
             before->sampler[i] != after->sampler[i]) {
@@ -457,6 +484,8 @@ static void upset(GLuint texture, GLuint sampler, GLuint buffer, GLuint vertex_a
     }
     for (GLuint i = 0; i < N_IMAGE; i++)
         gl.BindImageTexture(i, texture, 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA8);
+    for (int i = 0; i < N_INDEXED; i++)
+        gl.BindBufferRange(indexed[i].target, 0, buffer, 256, 1024);
     gl.ActiveTexture(GL_TEXTURE5);
     gl.Viewport(3, 4, 5, 6);
     gl.Scissor(10, 11, 12, 13);
@@ -498,6 +527,8 @@ static void calm(void)
     gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     gl.BindBuffer(GL_ARRAY_BUFFER, 0);
+    for (int i = 0; i < N_INDEXED; i++)
+        gl.BindBufferBase(indexed[i].target, 0, 0);
     gl.BindVertexArray(0);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     for (int i = 0; i < N_UNIT; i++) {
