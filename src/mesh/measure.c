@@ -19,19 +19,52 @@ static size_t count_unknown(const tc_mesh *m)
     return n;
 }
 
+enum { VALUES = 16384, PARTS_MOST = 64 };
+
+/* Least, most and number of the values that are not finite, of each part of them. */
+typedef struct ranges {
+    const double *value;
+    size_t n, part; /* values, and how many are one part */
+    struct {
+        double lo, hi;
+        size_t bad;
+    } of[PARTS_MOST];
+} ranges;
+
+static void range_of_parts(void *context, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    ranges *j = context;
+    for (size_t p = begin; p < end; p++) {
+        size_t first = p * j->part, last = first + j->part < j->n ? first + j->part : j->n, bad = 0;
+        double lo = INFINITY, hi = -INFINITY;
+        for (size_t i = first; i < last; i++) { /* no branch: several at a time */
+            double s = j->value[i];
+            bool finite = fabs(s) < INFINITY; /* false for NaN */
+            double low = finite ? s : INFINITY, high = finite ? s : -INFINITY;
+            bad += !finite;
+            lo = low < lo ? low : lo;
+            hi = high > hi ? high : hi;
+        }
+        j->of[p].lo = lo;
+        j->of[p].hi = hi;
+        j->of[p].bad = bad;
+    }
+}
+
 void tc_mesh_measure_scalar(tc_mesh *m)
 {
     /* Steiner points come last and carry no value */
     size_t n = m->association == TC_CELL_DATA ? m->n_tet : m->n_vertex - m->report.n_steiner, bad = 0;
+    ranges j = {.value = m->scalar, .n = n, .part = n / PARTS_MOST + 1};
+    j.part = j.part > VALUES ? j.part : VALUES;
+    size_t parts = (n + j.part - 1) / j.part;
+    tc_parallel_for(parts, 1, 0, range_of_parts, &j);
     double lo = INFINITY, hi = -INFINITY;
-    for (size_t i = 0; i < n; i++) {
-        double s = m->scalar[i];
-        if (!isfinite(s)) {
-            bad++;
-            continue;
-        }
-        lo = s < lo ? s : lo;
-        hi = s > hi ? s : hi;
+    for (size_t p = 0; p < parts; p++) {
+        lo = fmin(lo, j.of[p].lo);
+        hi = fmax(hi, j.of[p].hi);
+        bad += j.of[p].bad;
     }
     m->report.association = m->association;
     m->report.nonfinite_scalars = bad;
