@@ -1,4 +1,4 @@
-/* accumulate.h: from what rays gathered (state set 0) to the picture (tc_state.result): one ray a pixel as it is,
+/* accumulate.h: from what rays gathered (state set tc_job.last) to the picture (tc_state.result): one ray a pixel as it is,
  * several added up where they are, so that memory does not grow with their number; and, sampling adaptively, which
  * pixels get more (src/scene/samples.h). All within the picture's rectangle of proposals, with the scissor test on. */
 #ifndef TC_GPU_ACCUMULATE_H

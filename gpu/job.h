@@ -74,7 +74,7 @@ struct tc_gl_driver {
     bool locks; /* finished rays, by z-updates between passes */
     /* Compiles what the frame will use, so that the frame's time holds no compiling. Errors: TC_E_GL. */
     tc_status (*compile)(const tc_job *job, tc_error *err);
-    /* First hit and march of one frame; leaves what rays gathered, were they counted or audited, in state set 0. Binds
+    /* First hit and march of one frame; leaves what rays gathered in state set `last`, which is 0 where they were counted or audited. Binds
      * framebuffers. Errors: TC_E_GL, TC_E_MEMORY. Lost rays are counted, not an error here. */
     tc_status (*frame)(tc_job_result *out, const tc_job *job, tc_error *err);
 };

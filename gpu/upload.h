@@ -39,7 +39,7 @@ void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl);
 
 /* A transfer function's textures: `table` (3-D), `nodes` (running integrals: two texels a node, point and cumulative;
  * means: three an interval),
- * `pieces` (three texels each). */
+ * `pieces` (three texels an end, transfer_functions/pieces.h). */
 typedef struct tc_gpu_transfer {
     GLuint table;
     tc_texture_buffer nodes, pieces;
