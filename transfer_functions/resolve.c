@@ -1,5 +1,5 @@
 /* resolve.c: from a colour map and an opacity curve to the knots of a piecewise linear function.
- * Both are cut where they may have a corner; between cuts intervals are halved until a straight line is near enough. */
+ * Both are cut where they may have a corner; between cuts lines are as long as they may be near the curve. */
 #include "transfer_functions/resolve.h"
 
 #include "core/memory.h"
@@ -158,27 +158,56 @@ static void put(knots *out, const tc_knot *knot)
     out->knot[out->n++] = *knot;
 }
 
-/* Knots strictly inside (a, b). */
-static void halve(job *j, const place *p, const tc_knot *a, const tc_knot *b, int level)
+/* How far the line from a to b is from the curve between, as a share of what it may be. */
+static double bend(const job *j, const place *p, const tc_knot *a, const tc_knot *b)
 {
-    bool straight = true;
-    for (int i = 1; i < 8 && straight; i++) {
+    double most = 0;
+    for (int i = 1; i < 8; i++) {
         const double s = a->s + (b->s - a->s) * i / 8, t = i / 8.0;
         if (s <= a->s || s >= b->s)
             continue;
         const tc_knot k = knot_at(j, p, s);
-        straight = fabs(a->r + t * (b->r - a->r) - k.r) <= tolerance &&
-                   fabs(a->g + t * (b->g - a->g) - k.g) <= tolerance &&
-                   fabs(a->b + t * (b->b - a->b) - k.b) <= tolerance &&
-                   fabs(a->a + t * (b->a - a->a) - k.a) <= tolerance * j->scale;
+        most = fmax(most, fabs(a->r + t * (b->r - a->r) - k.r));
+        most = fmax(most, fabs(a->g + t * (b->g - a->g) - k.g));
+        most = fmax(most, fabs(a->b + t * (b->b - a->b) - k.b));
+        most = fmax(most, fabs(a->a + t * (b->a - a->a) - k.a) / j->scale);
     }
-    const double middle = a->s + 0.5 * (b->s - a->s);
-    if (straight || level == 0 || middle <= a->s || middle >= b->s)
-        return;
-    const tc_knot m = knot_at(j, p, middle);
-    halve(j, p, a, &m, level - 1);
-    put(&j->out, &m);
-    halve(j, p, &m, b, level - 1);
+    return most / tolerance;
+}
+
+/* Knots strictly inside (a, b), as few as lines as long as they may be need. A line of length h is off by h^2 times the
+ * curvature, or by h where the curve has a corner or a jump after all; there lengths are halved until doubles end. */
+static void divide(job *j, const place *p, const tc_knot *a, const tc_knot *b)
+{
+    enum { TRIES = 4 }; /* for a longer line than one that fits */
+    tc_knot from = *a;
+    double length = b->s - a->s;
+    while (from.s < b->s && !j->out.failed) {
+        const double left = b->s - from.s;
+        double fits = 0, off = INFINITY; /* lengths that are not too long, and too long */
+        tc_knot end = *b;
+        for (int tries = 0; fits == 0 || tries < TRIES; tries++) {
+            length = fmin(length, left);
+            const tc_knot to = length < left ? knot_at(j, p, from.s + length) : *b;
+            const double share = to.s > from.s ? bend(j, p, &from, &to) : 0;
+            if (share <= 1) {
+                fits = length;
+                end = to.s > from.s ? to : knot_at(j, p, nextafter(from.s, b->s));
+            } else {
+                off = length;
+            }
+            length *= fmax(0.5, fmin(2, 0.99 / sqrt(fmax(share, 1e-9))));
+            if (fits == left || length < 1.03 * fits)
+                break;
+            if (length >= off)
+                length = 0.5 * (fits + off);
+        }
+        if (end.s >= b->s)
+            return;
+        put(&j->out, &end);
+        from = end;
+        length = fits;
+    }
 }
 
 static int compare(const void *a, const void *b)
@@ -231,7 +260,7 @@ static void walk(job *j, const double *cut, size_t n)
         const tc_knot start = knot_at(j, &p, cut[i]);
         end = knot_at(j, &p, cut[i + 1]);
         put(&j->out, &start);
-        halve(j, &p, &start, &end, 100);
+        divide(j, &p, &start, &end);
         put(&j->out, &end);
     }
     p = (place){.color = (long)j->n_color - 1, .opacity = (long)j->in->n_opacity - 1, .middle = cut[n - 1]};

@@ -8,6 +8,7 @@
 #include "transfer_functions/color_space.h"
 #include "transfer_functions/preset.h"
 #include "transfer_functions/resolve.h"
+#include "transfer_functions/thin.h"
 #include "transfer_functions/transfer.h"
 
 #include <math.h>
@@ -200,6 +201,22 @@ static void knots_stray_from_the_curve(void **state)
     }
 }
 
+/* Who crosses knots pays for each: lines are as long as the tolerance, 0.8e-4, lets them be, so that one in the place of
+ * two is more than twice as far off. */
+static void more_knots_than_needed(void **state)
+{
+    (void)state;
+    const tc_transfer_options options[] = {{.data_range = {-3, 7}, .opacity = "-3:0.3,7:0.3"},
+                                           {.data_range = {1e-3, 1e5}, .log = true, .opacity = "0.001:0.3,1e5:0.3"}};
+    for (int i = 0; i < 2; i++) {
+        tc_transfer *tf = create(&options[i]), *thin = NULL;
+        assert_int_equal(tc_transfer_thin(&thin, tf, 2e-4, NULL), TC_OK);
+        assert_true(thin->n >= 0.9 * tf->n); /* what is left before a corner may be short */
+        tc_transfer_destroy(&thin);
+        tc_transfer_destroy(&tf);
+    }
+}
+
 /* ------------------------------------------------------------------------------------------------- built-in maps */
 
 static void builtin_maps_are_not_paraviews(void **state)
@@ -339,6 +356,7 @@ static void odd_ranges_fail(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(more_knots_than_needed),
         cmocka_unit_test(colour_spaces_differ_from_vtk),
         cmocka_unit_test(midpoint_and_sharpness_differ_from_vtk),
         cmocka_unit_test(colour_difference_is_not_ciede2000),
