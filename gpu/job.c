@@ -14,7 +14,7 @@ void tc_job_defines(char *out, size_t capacity, const tc_job *job)
 {
     bool running = job->integrator == TC_INTEGRATOR_INTEGRAL;
     const int ints = job->mesh ? job->mesh->cell_ints : 1;
-    snprintf(out, capacity, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s",
+    snprintf(out, capacity, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s%s",
              job->has_imaginary ? "#define HAS_IMAGINARY\n" : "", job->peel ? "#define PEEL\n" : "",
              job->cell_data ? "#define CELL_DATA\n" : "", job->extend ? "#define TF_EXTEND\n" : "",
              job->frame->clip_near ? "#define CLIP_NEAR\n" : "", job->frame->clip_far ? "#define CLIP_FAR\n" : "",
@@ -24,7 +24,7 @@ void tc_job_defines(char *out, size_t capacity, const tc_job *job)
              job->steps ? "#define TF_STEPS\n" : "", job->has_nan_color ? "#define NAN_COLOR\n" : "",
              job->software ? "#define SOFTWARE\n" : "", running && job->order == 1 ? "#define TF_FIRST_ORDER\n" : "",
              running && job->split > 0 ? "#define TF_SPLIT\n" : "", running && job->hard > 0 ? "#define TF_HARD\n" : "",
-             job->dense ? "#define PIECES_DENSE\n" : "",
+             job->dense ? "#define PIECES_DENSE\n" : "", job->twice ? "#define PIECES_TWICE\n" : "",
              ints == 4   ? "#define CELL_INTS 4\n"
              : ints == 2 ? "#define CELL_INTS 2\n"
                          : "");

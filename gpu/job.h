@@ -42,6 +42,7 @@ typedef struct tc_job {
     double hard_relative;
     double hard_slope;  /* … of a length that is more than that many times its difference of x */
     bool dense;         /* … a segment of one may have an optical depth above 1 */
+    bool twice;         /* exact: two rounds of pieces a step */
     int n_piece;        /* exact, hard: pieces of the function */
     bool steps;         /* drift, exact, hard: the function has steps */
     bool nonfinite;     /* some scalars are NaN: their cells contribute nothing, */

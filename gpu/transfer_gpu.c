@@ -225,6 +225,7 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
     job->split = plan.split;
     job->hard = plan.hard;
     job->dense = plan.dense;
+    job->twice = plan.twice;
     job->hard_depth = plan.hard_depth;
     job->hard_relative = HARD_RELATIVE / fmax(t->rounding, 1e-30);
     job->hard_slope = HARD_ROUNDING / fmax(t->rounding, 1e-30);

@@ -8,7 +8,7 @@ typedef struct tc_transfer_plan {
     tc_integrator integrator;       /* TABLE, INTEGRAL or EXACT */
     double span[2];                 /* scalars that nodes, pieces or entries span */
     int nodes;                      /* INTEGRAL */
-    bool dense;                     /* as tc_job has it */
+    bool dense, twice;              /* as tc_job has them */
     int order;                      /* INTEGRAL: 1 or 2 */
     double split, hard, hard_depth; /* INTEGRAL, as tc_job has them */
 } tc_transfer_plan;

@@ -4,6 +4,8 @@
 
 uniform vec2 tf_map; // scalar → x = s * tf_map.x + tf_map.y
 
+vec2 kept_map = vec2(0.0);
+
 struct Integral {
     Gathered sum;
     Place at;
@@ -14,11 +16,13 @@ float tf_place(float s)
 #ifdef NONFINITE
     s = isnan(s) ? 0.0 : s; // of a cell that contributes nothing
 #endif
-    return s * tf_map.x + tf_map.y;
+    return s * kept_map.x + kept_map.y;
 }
 
 Integral integral_begin(vec4 color, float s)
 {
+    kept_map = keep(tf_map);
+    pieces_begin();
     Integral i;
     i.sum = gathered_begin(color);
     i.at = place_at(tf_place(s));

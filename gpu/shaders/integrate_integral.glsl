@@ -96,6 +96,7 @@ Integral integral_begin(vec4 color, float s)
 #endif
 #ifdef TF_HARD
     kept_hard = keep(tf_hard);
+    pieces_begin();
 #endif
     Integral i;
     i.sum = gathered_begin(color);

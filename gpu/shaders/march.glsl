@@ -135,6 +135,10 @@ int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
                 k++;
             }
             open = integral_round(integral);
+#ifdef PIECES_TWICE
+            if (open)
+                open = integral_round(integral);
+#endif
             if (!open)
                 march_stop(w, integral);
         } while (GOES_ON && !integral_waits(integral) && walk_fast(w, ray));

@@ -10,13 +10,15 @@
 //
 // A round is one such piece. Rays of one group need different numbers of them; in a loop inside the loop over steps all
 // would wait for the one that needs most, at every step. So march.glsl has one loop, in whose rounds every ray adds a piece,
-// and those whose segment is done make a step first.
+// or with PIECES_TWICE two, and those whose segment is done make a step first.
 #include "integrate_depth.glsl"
 
 FETCH_BUFFER(3) tf_pieces; // three an end of pieces: x; r g b a below; those above, which differ at a step
 FETCH_FLOATS(13) tf_piece_floats; // the same, float by float
 uniform int tf_piece_count;
 uniform int tf_piece_half; // a power of two, at least half the count
+
+int kept_last_piece = 0;
 
 const float PIECE_FAR = 1.0e30; // the outer pieces reach there
 const float PIECE_OPAQUE = 1.0e-6; // transmittance below which the rest of a segment is nothing
@@ -51,6 +53,12 @@ vec4 piece_above(int end)
 #endif
 }
 
+// Before the first round.
+void pieces_begin()
+{
+    kept_last_piece = keep(tf_piece_count - 1);
+}
+
 Place place_at(float x)
 {
     Place p;
@@ -59,7 +67,7 @@ Place place_at(float x)
     p.rest = 0.0;
     p.piece = 0; // the last one that begins at or before x
     for (int step = tf_piece_half; step > 0; step /= 2)
-        if (p.piece + step < tf_piece_count && piece_end(min(p.piece + step, tf_piece_count - 1)) <= p.x)
+        if (p.piece + step <= kept_last_piece && piece_end(min(p.piece + step, kept_last_piece)) <= p.x)
             p.piece += step;
     float from = piece_end(p.piece), to = piece_end(p.piece + 1);
     p.front = mix(piece_above(p.piece), piece_below(p.piece + 1), clamp((p.x - from) / (to - from), 0.0, 1.0));
@@ -128,6 +136,6 @@ bool piece_round(inout Gathered g, inout Place p)
 #ifdef TF_STEPS
     p.front = crosses ? behind : back;
 #endif
-    p.piece = clamp(p.piece + (crosses ? up ? 1 : -1 : 0), 0, tf_piece_count - 1);
+    p.piece = clamp(p.piece + (crosses ? up ? 1 : -1 : 0), 0, kept_last_piece);
     return !(last || g.transmittance < PIECE_OPAQUE);
 }

@@ -159,6 +159,24 @@ static void dense_is_a_scene_in_which_no_cell_is(void **state)
     tc_transfer_destroy(&tf);
 }
 
+/* A second round of pieces is for cells that cross many, and for the integrator that makes them. */
+static void two_rounds_are_made_for_cells_of_few_knots(void **state)
+{
+    (void)state;
+    enum { N = 201 };
+    tc_knot knot[N];
+    for (int i = 0; i < N; i++) /* no three on a line */
+        knot[i] = (tc_knot){i / (N - 1.0), i % 2 ? 0.9 : 0.1, 0.5, 0.5, 0.3};
+    tc_transfer *tf = make(knot, N);
+    const tc_render_options exact = {.integrator = TC_INTEGRATOR_EXACT},
+                            integral = {.integrator = TC_INTEGRATOR_INTEGRAL};
+    const tc_pack_extent wide = mesh_of(0.01, 0.05), narrow = mesh_of(0.01, 0.005);
+    assert_true(plan_of(tf, &wide, &exact, NULL).twice);
+    assert_false(plan_of(tf, &narrow, &exact, NULL).twice);
+    assert_false(plan_of(tf, &wide, &integral, NULL).twice);
+    tc_transfer_destroy(&tf);
+}
+
 static void more_knots_than_can_be_crossed_are_promised(void **state)
 {
     (void)state;
@@ -190,6 +208,7 @@ int main(void)
         cmocka_unit_test(a_function_within_a_cell_is_guessed_from_its_ends),
         cmocka_unit_test(who_asks_for_an_integrator_gets_another),
         cmocka_unit_test(dense_is_a_scene_in_which_no_cell_is),
+        cmocka_unit_test(two_rounds_are_made_for_cells_of_few_knots),
         cmocka_unit_test(more_knots_than_can_be_crossed_are_promised),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

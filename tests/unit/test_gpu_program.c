@@ -397,6 +397,7 @@ static void some_shader_does_not_compile(void **state)
             job.split = f % 3 ? 0.5 : 0;
             job.hard = f % 5 < 3 ? 1e-3 : 0;
             job.dense = f % 2;
+            job.twice = f % 3 == 0 && job.integrator == TC_INTEGRATOR_EXACT;
             job.nonfinite = job.nonfinite || way & 1;
             job.software = way & 2;
             get(o.cache, "screen.vert", "march.frag", &job);
