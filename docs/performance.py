@@ -207,7 +207,7 @@ def parts(page):
         rate = {"bare walk": (data["bytes_walk"], walk["ns"]), "default": (data["bytes_default"], default["ns"])}
         rows = [[name, b, num(ns), num(b / ns), num(100 * b / ns * 1e9 / memory["bytes_per_second"]),
                  num(1e9 * b / memory["bytes_per_second"])] for name, (b, ns) in rate.items()]
-        text += (f"\nBytes: a step reads a fourth vertex' number, a neighbour (4 bytes each) and a vertex (16), the default besides 32 of the "
+        text += (f"\nBytes: a step reads a cell's record and a vertex (16 bytes each), the default besides 32 of the "
                  f"function's integrals, which stay in the nearest cache. {memory['threads']} threads read {num(memory['bytes_per_second'] / 1e9)} "
                  f"GB/s of memory in order, and {num(memory['records_per_second'] / 1e6)} million records of 16 bytes a second at random "
                  "places.\n\n" +

@@ -85,6 +85,8 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
         gl->BindFramebuffer(GL_FRAMEBUFFER, s->hit_framebuffer[1]);
         gl->ClearBufferiv(GL_COLOR, 2, no_key);
     }
+    gl->BindFramebuffer(GL_FRAMEBUFFER, s->set[0].framebuffer);
+    gl->ClearBufferiv(GL_COLOR, TC_STATE_FROM, nowhere); /* whence rays come that enter */
     gl->BindFramebuffer(GL_FRAMEBUFFER, s->hit_framebuffer[job->peel ? next : 0]);
     gl->Viewport(0, 0, s->width, s->height);
     gl->DepthMask(GL_TRUE);

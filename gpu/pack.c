@@ -16,13 +16,16 @@ static const int face_corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}
 
 static void pack_cell(int32_t *out, const int32_t *tet, const int32_t *neighbour)
 {
+    int32_t sorted[4];
     out[0] = tet[0] ^ tet[1] ^ tet[2] ^ tet[3];
     for (int f = 0; f < 4; f++) {
         int rank = 0;
         for (int k = 0; k < 4; k++)
             rank += tet[f] > tet[k];
-        out[1 + rank] = neighbour[f] < 0 ? -1 : neighbour[f] * TC_PACK_CELL_INTS;
+        sorted[rank] = neighbour[f] < 0 ? -1 : neighbour[f];
     }
+    for (int k = 0; k < 3; k++)
+        out[1 + k] = sorted[k] ^ sorted[3];
 }
 
 /* Vertices or cells that are one thread's at a time. What is summed up is summed by chunk, and the chunks in order, so
@@ -321,7 +324,7 @@ static void cell_range(void *context, size_t begin, size_t end, int worker)
             if (neighbour[f] < 0) {
                 pack_face(face, corner, pack, tet, f);
                 corner += 9;
-                face[3] = (int32_t)i * TC_PACK_CELL_INTS;
+                face[3] = (int32_t)i;
                 face += TC_PACK_FACE_INTS;
             }
     }
@@ -332,9 +335,8 @@ static tc_status check_mesh(const tc_mesh *mesh, tc_error *err)
     size_t n = mesh->n_tet + mesh->n_imaginary;
     if (!mesh->prepared || !mesh->neighbour)
         return tc_fail(err, TC_E_ARG, "the mesh was not prepared; call tc_mesh_prepare first");
-    if (n > INT32_MAX / TC_PACK_CELL_INTS)
-        return tc_fail(err, TC_E_MESH, "%zu cells are more than this version can address (%d)", n,
-                       INT32_MAX / TC_PACK_CELL_INTS);
+    if (n > INT32_MAX)
+        return tc_fail(err, TC_E_MESH, "%zu cells are more than this version can address (%d)", n, INT32_MAX);
     return TC_OK;
 }
 
@@ -377,7 +379,7 @@ tc_status tc_pack_scalars(tc_pack *out, const tc_mesh *mesh, int threads, tc_err
 tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, int threads, tc_error *err)
 {
     memset(out, 0, sizeof *out);
-    tc_status status = tc_room_check(2 * (20 * (mesh->n_tet + mesh->n_imaginary) + 16 * mesh->n_vertex), err,
+    tc_status status = tc_room_check(2 * (16 * (mesh->n_tet + mesh->n_imaginary) + 16 * mesh->n_vertex), err,
                                      "rendering %zu cells", mesh->n_tet + mesh->n_imaginary); /* GL copies it */
     if (status == TC_OK)
         status = tc_pack_scalars(out, mesh, threads, err);
@@ -394,7 +396,7 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, int threads, tc_error
         faces += count;
     }
     out->n_face = faces;
-    out->cell = tc_alloc(n * TC_PACK_CELL_INTS + TC_PACK_SPARE_INTS, sizeof *out->cell);
+    out->cell = tc_alloc(n, TC_PACK_CELL_INTS * sizeof *out->cell);
     out->face = tc_alloc(faces, TC_PACK_FACE_INTS * sizeof *out->face);
     out->face_corner = tc_alloc(faces, 9 * sizeof *out->face_corner);
     if (!j.first || !out->cell || !out->face || !out->face_corner) {
@@ -402,8 +404,6 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, int threads, tc_error
         status = tc_fail_memory(err, "the packed mesh", n, 24);
     } else {
         tc_parallel_for(n, CHUNK, threads, cell_range, &j);
-        for (size_t i = 0; i < TC_PACK_SPARE_INTS; i++)
-            out->cell[n * TC_PACK_CELL_INTS + i] = -1;
         out->ms += tc_now_ms() - start;
     }
     free(j.first);

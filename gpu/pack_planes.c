@@ -87,9 +87,8 @@ tc_status tc_pack_planes_build(tc_pack_planes *out, const tc_mesh *mesh, const t
     memset(out, 0, sizeof *out);
     double start = tc_now_ms();
     size_t n = pack->n_cell;
-    if (n > INT32_MAX / TC_PACK_CELL_INTS)
-        return tc_fail(err, TC_E_MESH, "%zu cells are more than this version can address (%d)", n,
-                       INT32_MAX / TC_PACK_CELL_INTS);
+    if (n > INT32_MAX / 4)
+        return tc_fail(err, TC_E_MESH, "%zu cells are more than this version can address (%d)", n, INT32_MAX / 4);
     out->n_cell = n;
     out->vertex = tc_alloc(n, 16 * sizeof *out->vertex);
     out->normal = tc_alloc(n, 16 * sizeof *out->normal);

@@ -58,7 +58,7 @@ static void clear_steps(const tc_job *job)
     const GLuint none[4] = {0, 0, 0, 0};
     job->gl->Disable(GL_SCISSOR_TEST);
     job->gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->set[0].framebuffer);
-    job->gl->ClearBufferuiv(GL_COLOR, 3, none);
+    job->gl->ClearBufferuiv(GL_COLOR, TC_STATE_STEPS, none);
 }
 
 /* Adds what one frame did to the picture's. */

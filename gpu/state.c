@@ -27,7 +27,7 @@ static GLuint depth_buffer(const tc_state *s, const tc_gl *gl)
 static tc_status framebuffer(GLuint *out, const tc_state *s, const tc_gl *gl, const GLuint *color, int n, GLuint depth,
                              tc_error *err)
 {
-    GLenum buffers[5];
+    GLenum buffers[TC_STATE_TEXTURES];
     gl->GenFramebuffers(1, out);
     gl->BindFramebuffer(GL_FRAMEBUFFER, *out);
     for (int i = 0; i < n; i++) {
@@ -44,6 +44,12 @@ static tc_status framebuffer(GLuint *out, const tc_state *s, const tc_gl *gl, co
             "%s cannot render to float textures of %dx%d pixels (framebuffer status 0x%04X); use a smaller --size",
             gl->renderer, s->width, s->height, complete);
     return TC_OK;
+}
+
+/* Of a state set: all, or those before what is only counted or audited. */
+static int attachments(const tc_state *s)
+{
+    return s->auditing ? TC_STATE_TEXTURES : s->counting ? TC_STATE_AUDIT : TC_STATE_STEPS;
 }
 
 /* NaN as float, and nothing meant as an integer. */
@@ -121,14 +127,15 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options 
         set->walk = screen_texture(s, gl, GL_RGBA32I, GL_RGBA_INTEGER, GL_INT);
         set->color = screen_texture(s, gl, s->color_bits == 16 ? GL_RGBA16F : GL_RGBA32F, GL_RGBA, GL_FLOAT);
         set->at = screen_texture(s, gl, GL_RG32F, GL_RG, GL_FLOAT);
+        set->from = screen_texture(s, gl, GL_R32I, GL_RED_INTEGER, GL_INT);
         if (counting)
             set->steps = screen_texture(s, gl, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
         if (s->auditing)
             set->audit = screen_texture(s, gl, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
-        GLuint textures[5] = {set->walk, set->color, set->at, set->steps, set->audit};
-        int n = s->auditing ? 5 : counting ? 4 : 3;
+        GLuint textures[TC_STATE_TEXTURES] = {set->walk, set->color, set->at, set->from, set->steps, set->audit};
+        int n = attachments(s);
         status = framebuffer(&set->framebuffer, s, gl, textures, n, s->lock, err);
-        s->bytes += pixels * (size_t)(24 + s->color_bits / 2 + (counting ? 4 : 0) + (s->auditing ? 16 : 0));
+        s->bytes += pixels * (size_t)(28 + s->color_bits / 2 + (counting ? 4 : 0) + (s->auditing ? 16 : 0));
     }
     for (int i = 0; i < (peeling ? 2 : 1) && status == TC_OK; i++) {
         if (peeling) {
@@ -159,9 +166,9 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options 
 void tc_state_finish(tc_state *s, const tc_gl *gl)
 {
     for (int i = 0; i < 2; i++) {
-        GLuint textures[6] = {s->set[i].walk,  s->set[i].color, s->set[i].at,
+        GLuint textures[7] = {s->set[i].walk,  s->set[i].color, s->set[i].at, s->set[i].from,
                               s->set[i].steps, s->set[i].audit, s->key[i]};
-        gl->DeleteTextures(6, textures); /* 0 is ignored */
+        gl->DeleteTextures(7, textures); /* 0 is ignored */
         gl->DeleteFramebuffers(1, &s->set[i].framebuffer);
         gl->DeleteFramebuffers(1, &s->hit_framebuffer[i]);
     }
@@ -177,8 +184,9 @@ void tc_state_finish(tc_state *s, const tc_gl *gl)
 
 void tc_state_poison(const tc_state *s, const tc_gl *gl)
 {
-    static const GLenum types[5] = {GL_INT, GL_FLOAT, GL_FLOAT, GL_UNSIGNED_INT, GL_UNSIGNED_INT};
-    int n = s->auditing ? 5 : s->counting ? 4 : 3;
+    static const GLenum types[TC_STATE_TEXTURES] = {GL_INT, GL_FLOAT,        GL_FLOAT,
+                                                    GL_INT, GL_UNSIGNED_INT, GL_UNSIGNED_INT};
+    int n = attachments(s);
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < n; k++)
             poison_color(gl, s->set[i].framebuffer, k, types[k]);

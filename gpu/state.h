@@ -5,10 +5,14 @@
 
 #include "gpu/gl.h"
 
+/* The attachments of tc_state_set.framebuffer, as march.frag has them. */
+enum { TC_STATE_WALK, TC_STATE_COLOR, TC_STATE_AT, TC_STATE_FROM, TC_STATE_STEPS, TC_STATE_AUDIT, TC_STATE_TEXTURES };
+
 typedef struct tc_state_set {
     GLuint walk;        /* RGBA32I: cell, face's vertices */
     GLuint color;       /* RGBA32F or RGBA16F: colour, optical depth or transmittance */
     GLuint at;          /* RG32F: depth, scalar */
+    GLuint from;        /* R32I: the cell it comes from, -1: from outside */
     GLuint steps;       /* R32UI, only when counting */
     GLuint audit;       /* RGBA32UI: length and length in real cells (float bits), hash, broken; only when auditing */
     GLuint framebuffer; /* all of them, and the lock */
@@ -34,7 +38,8 @@ typedef struct tc_state {
 /* Of options: width, height, count, audit (which counts as well), samples (whether adaptive: more rays need no more
  * memory), state_format. tc_state_fits: is the state the one that tc_state_create would make?
  * Errors: TC_E_ARG when the image exceeds the GL's limit, TC_E_MEMORY, TC_E_GL. */
-tc_status tc_state_create(tc_state *out, const tc_gl *gl, const tc_render_options *options, bool peeling, tc_error *err);
+tc_status tc_state_create(tc_state *out, const tc_gl *gl, const tc_render_options *options, bool peeling,
+                          tc_error *err);
 bool tc_state_fits(const tc_state *state, const tc_render_options *options, bool peeling);
 void tc_state_finish(tc_state *state, const tc_gl *gl);
 /* For tests: the worst that a frame can find. NaN in all that the last one left but the result, and everything locked.

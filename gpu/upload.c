@@ -31,8 +31,8 @@ static tc_status upload_buffer(tc_texture_buffer *out, const tc_gl *gl, const vo
 {
     memset(out, 0, sizeof *out);
     if (n_texel > (size_t)gl->max_texture_buffer)
-        return tc_fail(err, TC_E_MEMORY, "%s needs %zu texels, %s offers %d in a texture buffer", what, n_texel,
-                       gl->renderer, gl->max_texture_buffer);
+        return tc_fail(err, TC_E_MEMORY, "%s needs %zu texels, %s offers %d in a texture buffer; use a smaller mesh",
+                       what, n_texel, gl->renderer, gl->max_texture_buffer);
     out->bytes = n_texel * texel_bytes;
     gl->GenBuffers(1, &out->buffer);
     gl->BindBuffer(GL_TEXTURE_BUFFER, out->buffer);
@@ -73,25 +73,6 @@ static tc_status upload_planes(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack_
     return status;
 }
 
-GLenum tc_gpu_cell_format(const tc_gpu_mesh *mesh)
-{
-    return mesh->cell_ints == 4 ? GL_RGBA32I : mesh->cell_ints == 2 ? GL_RG32I : GL_R32I;
-}
-
-static tc_status upload_cells(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, tc_error *err)
-{
-    const size_t n = pack->n_cell * TC_PACK_CELL_INTS, most = (size_t)gl->max_texture_buffer;
-    out->cell_ints = n <= most ? 1 : (n + 1) / 2 <= most ? 2 : 4;
-    const size_t ints = (size_t)out->cell_ints;
-    _Static_assert(TC_PACK_SPARE_INTS >= 3, "the last texel is whole");
-    if ((n + ints - 1) / ints > most)
-        return tc_fail(err, TC_E_MEMORY,
-                       "%zu cells are more than the %zu that %s can hold in a texture buffer; use a smaller mesh",
-                       pack->n_cell, most / TC_PACK_CELL_INTS * 4, gl->renderer);
-    return upload_buffer(&out->cells, gl, pack->cell, (n + ints - 1) / ints, 4 * ints, tc_gpu_cell_format(out),
-                         "uploading the cells", err);
-}
-
 tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, const tc_pack_planes *planes,
                              tc_error *err)
 {
@@ -101,7 +82,9 @@ tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *p
     out->n_real = pack->n_real;
     out->n_vertex = pack->n_vertex;
     out->n_face = pack->n_face;
-    tc_status status = planes ? upload_planes(out, gl, planes, err) : upload_cells(out, gl, pack, err);
+    tc_status status =
+        planes ? upload_planes(out, gl, planes, err)
+               : upload_buffer(&out->cells, gl, pack->cell, pack->n_cell, 16, GL_RGBA32I, "uploading the cells", err);
     if (status == TC_OK)
         status = upload_buffer(&out->vertices, gl, pack->vertex, pack->n_vertex, 16, GL_RGBA32F,
                                "uploading the vertices", err);

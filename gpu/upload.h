@@ -18,7 +18,6 @@ typedef struct tc_texture_buffer {
 typedef struct tc_gpu_mesh {
     tc_texture_buffer cells, vertices, faces, cell_scalar;
     tc_texture_buffer planes_vertices, planes_normals, planes_neighbours, planes_scalars; /* tc_pack_planes */
-    int cell_ints; /* of the cells' records in one texel: 1, or 2 or 4 where that many texels would be too many */
     size_t n_cell, n_real, n_vertex, n_face;
     double ms;
 } tc_gpu_mesh;
@@ -27,14 +26,12 @@ typedef struct tc_gpu_mesh {
  * away then. Errors: TC_E_MEMORY (with the figure needed), TC_E_GL. */
 tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, const tc_pack_planes *planes,
                              tc_error *err);
-/* Other values onto a mesh that was uploaded without planes: pack is tc_pack_scalars', of the same mesh. Sent are the values
- * alone: of points with the vertices that hold them, of cells in an array of their own, which comes and goes with them; the
- * vertices then only when it comes. *bytes gets how many. Errors: as tc_gpu_mesh_upload; the mesh is then to be uploaded
- * anew. */
+/* Other values onto a mesh that was uploaded without planes: pack is tc_pack_scalars', of the same mesh. Sent are the
+ * values alone: of points with the vertices that hold them, of cells in an array of their own, which comes and goes
+ * with them; the vertices then only when it comes. *bytes gets how many. Errors: as tc_gpu_mesh_upload; the mesh is
+ * then to be uploaded anew. */
 tc_status tc_gpu_mesh_values(tc_gpu_mesh *mesh, size_t *bytes, const tc_gl *gl, const tc_pack *pack, tc_error *err);
 size_t tc_gpu_mesh_bytes(const tc_gpu_mesh *mesh);
-/* GL's name for texels of cell_ints ints. */
-GLenum tc_gpu_cell_format(const tc_gpu_mesh *mesh);
 void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl);
 
 /* A transfer function's textures: `table` (3-D), `nodes` (running integrals: two texels a node, point and cumulative;

@@ -13,9 +13,11 @@ uniform ivec4 rect; // x, y, width, height of the pixels that may have a ray
 uniform isampler2D state_walk; // cell, a, b, c
 uniform sampler2D state_color; // what the ray gathered so far
 uniform sampler2D state_at;    // depth, scalar
+uniform isampler2D state_from; // the cell it comes from, -1: from outside
 writeonly restrict uniform iimage2D out_walk;
 writeonly restrict uniform image2D out_color;
 writeonly restrict uniform image2D out_at;
+writeonly restrict uniform iimage2D out_from;
 #ifdef COUNT
 uniform usampler2D state_steps;
 writeonly restrict uniform uimage2D out_steps;
@@ -44,10 +46,11 @@ void main()
     if (walk.x >= 0) {
         vec4 color = texelFetch(state_color, pixel, 0);
         vec2 at = texelFetch(state_at, pixel, 0).xy;
+        int from = texelFetch(state_from, pixel, 0).x;
 #ifdef AUDIT
         audit_begin(texelFetch(state_audit, pixel, 0));
 #endif
-        int k = march(walk, color, at, vec2(pixel) + 0.5);
+        int k = march(walk, color, at, from, vec2(pixel) + 0.5);
 #ifdef COUNT
         imageStore(out_steps, pixel, uvec4(texelFetch(state_steps, pixel, 0).x + uint(k)));
 #endif
@@ -59,6 +62,7 @@ void main()
         atomicCounterIncrement(rays_walked);
         if (walk.x >= 0) {
             imageStore(out_at, pixel, vec4(at, 0.0, 0.0));
+            imageStore(out_from, pixel, ivec4(from));
             atomicCounterIncrement(rays_open);
         }
         if (walk.x == GIVEN_UP)

@@ -31,7 +31,7 @@ void audit_add(inout Audit audit, Segment segment)
 {
     audit.length += segment.z1 - segment.z0;
     audit.real += segment.real ? segment.z1 - segment.z0 : 0.0;
-    audit.hash += audit_hash(uint(segment.cell / MESH_RECORD));
+    audit.hash += audit_hash(uint(segment.cell));
 }
 
 Audit audit;
@@ -102,8 +102,9 @@ void march_stop(inout Walk w, Integral integral)
 }
 
 // Up to steps_per_pass steps of the ray through `pixel`, which is not finished. walk: its cell, negative once it is
-// finished, and a, b, c; color: the integrator's; at: depth, scalar. Gives the number of steps.
-int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
+// finished, and a, b, c; color: the integrator's; at: depth, scalar; from: the cell it comes from, -1: from outside. Gives
+// the number of steps.
+int march(inout ivec4 walk, inout vec4 color, inout vec2 at, inout int from, vec2 pixel)
 {
     int most = keep(steps_per_pass);
     march_unit = keep(length_unit);
@@ -118,7 +119,7 @@ int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
     walk_face(w, ray, walk.x, walk.yzw, facing);
     w.z = at.x;
     w.s = at.y;
-    walk_look_ahead(w);
+    walk_look_ahead(w, from);
     Integral integral = integral_begin(color, w.s);
     int k = 0;
     bool open = false;     // the last step's segment is not all added yet
@@ -155,5 +156,6 @@ int march(inout ivec4 walk, inout vec4 color, inout vec2 at, vec2 pixel)
     color = integral_end(integral);
     walk = ivec4(w.cell, w.id);
     at = vec2(w.z, w.s);
+    from = walk_from(w);
     return k;
 }

@@ -2,25 +2,17 @@
 
 #include "fetch.glsl"
 
-// A cell is named by where its record starts. 5 ints a record: XOR of the vertex ids, then the neighbours (their records'
-// starts, -1 outside) in the order of the sorted vertex ids.
-#if defined CELL_INTS && CELL_INTS == 4
+// A cell's record: the XOR of its four vertex ids; and of its neighbours n0 ... n3 (-1 outside) in the order of the sorted
+// ids of the vertices opposite them, n0 ^ n3, n1 ^ n3, n2 ^ n3. A ray comes from one of them, and so knows them all.
 FETCH_INTS(0, rgba32i) mesh_cells;
-#elif defined CELL_INTS
-FETCH_INTS(0, rg32i) mesh_cells;
-#else
-FETCH_IBUFFER(0) mesh_cells;
-#endif
 FETCH_BUFFER(1) mesh_vertices; // x, y, z, scalar
 #ifdef HAS_IMAGINARY
-uniform int mesh_real; // records below are real cells, the others imaginary ones
+uniform int mesh_real; // cells below are real, the others imaginary
 int mesh_real_kept = 0;
 #endif
 #ifdef CELL_DATA
 uniform samplerBuffer mesh_cell_scalar;
 #endif
-
-const int MESH_RECORD = 5;
 
 // Before a walk.
 void mesh_begin()
@@ -30,31 +22,16 @@ void mesh_begin()
 #endif
 }
 
-// Int i of all records. A buffer texture has so many texels: where records are more, 2 or 4 ints (CELL_INTS) share a texel.
-int mesh_int(int i)
+ivec4 mesh_record(int cell)
 {
-#ifndef CELL_INTS
-    return fetch(mesh_cells, i).x;
-#elif CELL_INTS == 2
-    ivec2 texel = fetch(mesh_cells, i >> 1).xy;
-    return (i & 1) == 0 ? texel.x : texel.y;
-#else
-    ivec4 texel = fetch(mesh_cells, i >> 2);
-    ivec2 half_texel = (i & 2) == 0 ? texel.xy : texel.zw;
-    return (i & 1) == 0 ? half_texel.x : half_texel.y;
-#endif
+    return fetch(mesh_cells, cell);
 }
 
-int mesh_fourth_vertex(int cell, ivec3 face)
+// A cell's neighbour opposite vertex v, XOR its n3; `face` are its three other vertices, `record` is its record.
+int mesh_other(ivec4 record, int v, ivec3 face)
 {
-    return mesh_int(cell) ^ face.x ^ face.y ^ face.z;
-}
-
-// The cell behind the face opposite vertex `dropped`; `face` are the cell's three other vertices.
-int mesh_neighbour(int cell, int dropped, ivec3 face)
-{
-    int rank = int(dropped > face.x) + int(dropped > face.y) + int(dropped > face.z);
-    return mesh_int(cell + 1 + rank);
+    int rank = int(v > face.x) + int(v > face.y) + int(v > face.z);
+    return rank == 0 ? record.y : rank == 1 ? record.z : rank == 2 ? record.w : 0;
 }
 
 bool mesh_is_real(int cell)
@@ -70,6 +47,6 @@ bool mesh_is_real(int cell)
 // Scalar of a real cell.
 float mesh_cell_value(int cell)
 {
-    return texelFetch(mesh_cell_scalar, cell / MESH_RECORD).x;
+    return texelFetch(mesh_cell_scalar, cell).x;
 }
 #endif

@@ -19,13 +19,17 @@ const float WALK_DEPTH_ROUNDING = 4.0e-7;
 
 // A ray at a face that holds it, about to enter `cell` through it.
 struct Walk {
-    int cell;      // where the cell's record starts; -1: outside
+    int cell;      // -1: outside
     ivec3 id;      // the face's vertices, counter-clockwise around the ray
     vec4 a, b, c;  // projected: x, y across, z along the ray, and the scalar
     vec3 weight;   // crosses (b,c), (c,a), (a,b), all positive: the ray's barycentric coordinates in the face
     float z, s;    // depth and scalar where the ray meets the face
+    int n3;        // the cell's neighbour n3 (mesh.glsl)
     int ahead;     // the cell's fourth vertex
-    vec4 ahead_vertex; // its record, fetched before it is needed, for memory is slow; from a step to walk_fast alone
+    // Fetched before they are needed, for memory is slow. Behind a loop in which they were fetched they are to be fetched again:
+    // llvmpipe then has what the last lane that left it fetched.
+    ivec4 record;      // the cell's
+    vec4 ahead_vertex; // the fourth vertex'; from a step to walk_fast alone
     vec4 d;        // the fourth vertex, projected
     vec3 cross_d;  // crosses (d,a), (d,b), (d,c)
 };
@@ -43,12 +47,21 @@ vec4 walk_vertex(Ray ray, int id)
     return vec4(ray_project(ray, x.xyz), x.w);
 }
 
-// Fetches what the next step will look at; outside the mesh something that is there and never used.
-void walk_look_ahead(inout Walk w)
+// Fetches what the next step will look at, coming `from` the cell behind the face (-1: from outside); outside the mesh
+// something that is there and never used.
+void walk_look_ahead(inout Walk w, int from)
 {
-    int id = mesh_fourth_vertex(max(w.cell, 0), w.id);
+    w.record = mesh_record(max(w.cell, 0));
+    int id = w.record.x ^ w.id.x ^ w.id.y ^ w.id.z;
+    w.n3 = from ^ mesh_other(w.record, id, w.id);
     w.ahead = w.cell < 0 ? w.id.x : id;
     w.ahead_vertex = fetch(mesh_vertices, w.ahead);
+}
+
+// The cell that a walk inside the mesh comes from.
+int walk_from(Walk w)
+{
+    return w.n3 ^ mesh_other(mesh_record(max(w.cell, 0)), w.ahead, w.id);
 }
 
 // Depth and scalar at the walk's face: a convex combination, so both stay within the face's own values.
@@ -86,6 +99,7 @@ bool walk_face(out Walk w, Ray ray, int cell, ivec3 id, out int facing)
 // Looks at the cell ahead, exactly.
 void walk_exact(inout Walk w, Ray ray)
 {
+    w.record = mesh_record(max(w.cell, 0));
     w.ahead_vertex = fetch(mesh_vertices, w.ahead);
     w.d = vec4(ray_project(ray, w.ahead_vertex.xyz), w.ahead_vertex.w);
     w.cross_d = vec3(sign_cross(w.d.xy, w.a.xy, w.ahead, w.id.x), sign_cross(w.d.xy, w.b.xy, w.ahead, w.id.y),
@@ -141,8 +155,8 @@ Segment walk_step(inout Walk w, Ray ray)
     w.a = drop_a ? d : w.a;
     w.b = drop_b ? d : w.b;
     w.c = drop_c ? d : w.c;
-    w.cell = mesh_neighbour(cell, dropped, w.id);
-    walk_look_ahead(w);
+    w.cell = w.n3 ^ mesh_other(w.record, dropped, w.id);
+    walk_look_ahead(w, cell);
 
     Segment segment;
     segment.cell = cell;

@@ -40,7 +40,7 @@ bool walk_face(out Walk w, Ray ray, int cell, ivec3 id, out int facing)
 {
     planes_longest_kept = keep(planes_longest);
     w.cell = cell;
-    w.t = cell / MESH_RECORD;
+    w.t = cell;
     w.id = id;
     w.z = w.s = 0.0;
     facing = 1;
@@ -59,8 +59,13 @@ bool walk_face(out Walk w, Ray ray, int cell, ivec3 id, out int facing)
 }
 
 // stepper.glsl looks ahead, and takes doubles where float is not enough; there is no such thing here.
-void walk_look_ahead(inout Walk w)
+void walk_look_ahead(inout Walk w, int from)
 {
+}
+
+int walk_from(Walk w)
+{
+    return -1;
 }
 
 void walk_exact(inout Walk w, Ray ray)
@@ -126,7 +131,7 @@ Segment walk_step(inout Walk w, Ray ray)
     w.z = lambda;
     w.s = s;
     w.t = next;
-    w.cell = next < 0 ? next : next * MESH_RECORD;
+    w.cell = next;
     if (next >= 0) {
         int place = 4 * next + f, n = w.id.z + 1;
         if (place == w.id.y)

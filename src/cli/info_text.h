@@ -8,12 +8,12 @@ typedef struct tc_info {
     const char *input;
     const tc_source *source; /* NULL for a synthetic dataset */
     tc_mesh_report report;
-    bool prepared;  /* tc_mesh_prepare went well: the report is whole */
+    bool prepared; /* tc_mesh_prepare went well: the report is whole */
     tc_input_seen seen;
     double unit_distance;
 } tc_info;
 
-/* Bytes of cells and vertices on the GPU: 20 a tet, imaginary ones too, 16 a vertex. */
+/* Bytes of cells and vertices on the GPU: 16 a tet, imaginary ones too, 16 a vertex. */
 double tc_info_gpu_bytes(const tc_mesh_report *report);
 
 void tc_info_print(const tc_info *info); /* to stdout */

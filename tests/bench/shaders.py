@@ -66,20 +66,6 @@ vec4 integral_end(Integral i)
 INTEGRATORS = ["integrate_integral.glsl", "integrate_exact.glsl", "integrate_table.glsl", "integrate_drift.glsl"]
 
 
-def returned(kind, function):
-    """Pattern of what a function returns in the end."""
-    return kind + " " + function + r"\([^{]*\{(?:(?!\n\})(?:.|\n))*?return ([^;]*);"
-
-
-def again(name):
-    """The same expression once more, elsewhere: with another value of the variable; numbers of cells and vertices are smaller."""
-    def replace(match):
-        expression = match.group(1)
-        other = re.sub(rf"\b{name}\b", f"({name} ^ 1)", expression)
-        return match.group(0).replace(f"return {expression};", f"return ({expression}) + int(({other}) == 0x7fffffff);")
-    return replace
-
-
 # name: {file: [(pattern, replacement)]}; each pattern must be found exactly once.
 EDITS = {
     "no-interpolation": {"stepper.glsl": [
@@ -87,8 +73,10 @@ EDITS = {
     "vertex-twice": {"stepper.glsl": [
         (r"(void walk_look_ahead\((?:(?!\n\})(?:.|\n))*?    w\.ahead_vertex = fetch\(mesh_vertices, w\.ahead\);)",
          r"\1\n    w.ahead_vertex.w += dot(fetch(mesh_vertices, w.ahead ^ 1), vec4(1.0)) == " + NEVER + " ? 1.0 : 0.0;")]},
-    "neighbour-twice": {"mesh.glsl": [(returned("int", "mesh_neighbour"), again("rank"))]},
-    "fourth-twice": {"mesh.glsl": [(returned("int", "mesh_fourth_vertex"), again("cell"))]},
+    "record-twice": {"mesh.glsl": [
+        (r"    return fetch\(mesh_cells, cell\);",
+         r"    ivec4 other = fetch(mesh_cells, cell ^ 1);\n"
+         r"    return fetch(mesh_cells, cell) + int(other.x + other.y + other.z + other.w == 0x7fffffff);")]},
     "projection-twice": {"stepper.glsl": [
         (r"(bool walk_fast\((?:.|\n)*?)(    return sure;)",
          r"\1    vec3 again = ray_project(ray, w.ahead_vertex.xyz * 1.5);\n"
@@ -113,16 +101,16 @@ EDITS = {
         (r"    sure = sure && abs\(c\) > max\(SIGN_ROUNDING[^\n]*", "    sure = sure;")]},
 }
 # Which of them go with the bare walk.
-ON_BARE = ["no-interpolation", "vertex-twice", "neighbour-twice", "fourth-twice", "projection-twice", "signs-twice"]
+ON_BARE = ["no-interpolation", "vertex-twice", "record-twice", "projection-twice", "signs-twice"]
 
 # The least instructions of a step for eight rays, counted from the sources with registers of eight floats or four doubles:
 # what no compiler could leave out. (part, instructions, how they come about)
 LEAST = [
-    ("fetches", 6, "1 gather for the fourth vertex' number, 1 for the neighbour, 4 for x, y, z and the scalar"),
+    ("fetches", 8, "4 for the cell's record, 4 for x, y, z and the scalar"),
     ("projection", 18, "3 differences; 3 dot products of 5, not contracted"),
     ("signs", 43, "8 coordinates to double in halves, 3 crosses of 3 in halves, back to float"),
-    ("choice of the exit face", 51, "comparisons, and selections of 3 weights, 3 numbers and 3 projected vertices; rank of the "
-     "vertex that is dropped; exclusive or"),
+    ("choice of the exit face", 71, "comparisons, and selections of 3 weights, 3 numbers and 3 projected vertices; ranks of the "
+     "vertex that is dropped and of the new one, what the record has for them; exclusive or"),
     ("interpolation", 21, "depth and scalar, one division, order of depths"),
     ("loop", 8, "mask of the rays that go on, count, comparison, doubts about signs"),
 ]

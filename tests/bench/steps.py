@@ -118,8 +118,7 @@ PARTS = [
     ("integration", "default", "walk", "the default integrator against none"),
     ("interpolation", "walk", "walk no-interpolation", "depth and scalar at the exit face, left out with what carries those of vertices"),
     ("fetch of a vertex", "walk vertex-twice", "walk", "16 bytes, once more"),
-    ("fetch of a neighbour", "walk neighbour-twice", "walk", "4 bytes, once more"),
-    ("fetch of a fourth vertex' number", "walk fourth-twice", "walk", "4 bytes, once more"),
+    ("fetch of a cell's record", "walk record-twice", "walk", "16 bytes, once more"),
     ("projection", "walk projection-twice", "walk", "of one vertex, once more"),
     ("signs", "walk signs-twice", "walk", "of three crosses, once more"),
     ("fetch of the integrals' node", "nodes-twice", "default", "32 bytes, once more"),
@@ -170,11 +169,11 @@ def parts(options):
     data = {"rows": rows, "input": name_of(result), "misfits": misfits, "steps": steps, "rays": found["default"]["rays"], "mesh": result["mesh"],
             "variants": found, "counters": result["counters"], "least_instructions": least,
             "least": [{"part": p, "instructions": n / 8, "what": w} for p, n, w in shaders.LEAST],
-            "lanes": mean_of_views(by_name(result)["default"], "lanes"), "bytes_walk": 24, "bytes_default": 56, "threads": options.threads}
+            "lanes": mean_of_views(by_name(result)["default"], "lanes"), "bytes_walk": 32, "bytes_default": 64, "threads": options.threads}
     try:
         data["memory"] = json.loads(common.run([common.program(options, "bench_read"), str(options.threads),
                                                 "64" if options.quick else "512"]))
     except Failure as failure:
         print(f"  memory: left out: {failure}")
-    print(f"  the least a step of the bare walk can be: {least:.1f} instructions, 24 bytes (56 with integration)")
+    print(f"  the least a step of the bare walk can be: {least:.1f} instructions, 32 bytes (64 with integration)")
     return data, []

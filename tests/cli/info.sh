@@ -16,7 +16,7 @@ json sink.json has tetcast eq source.cell_types.0.dimension 3 ge source.cell_typ
     size source.arrays.0.range 2 size mesh.bounds 6 eq mesh.convex false ge mesh.imaginary_tets 1 ge mesh.gpu_bytes 1 \
     ge mesh.boundary_faces 100 eq mesh.parts 1 ge mesh.unit_distance 0.01 has time_ms.read
 tets=$(sed -n 's/.*"tets": \([0-9]*\).*/\1/p' sink.json | head -1)
-json sink.json ge mesh.gpu_bytes $((20 * tets))
+json sink.json ge mesh.gpu_bytes $((16 * tets))
 run 0 info --json sink.vtu --reentry peel
 cp out peel.json
 json peel.json eq mesh.reentry peel eq mesh.imaginary_tets 0

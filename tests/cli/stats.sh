@@ -8,7 +8,7 @@ stdout_empty
 version=$(sed -n 's/^#define TC_VERSION_STRING "\(.*\)"/\1/p' "$TC_SOURCE/src/tetcast.h")
 json s.json eq tetcast "$version" eq field field ge unit_distance 0.001 has gl.context has gl.renderer has gl.version \
     ge mesh.points 100 ge mesh.tets 1000 ge mesh.imaginary_tets 1 eq mesh.dropped_cells 0 eq mesh.convex false \
-    eq mesh.reentry convexify ge mesh.gpu_bytes 1 ge mesh.gpu_bytes_per_tet 20 le mesh.gpu_bytes_per_tet 36
+    eq mesh.reentry convexify ge mesh.gpu_bytes 1 ge mesh.gpu_bytes_per_tet 16 le mesh.gpu_bytes_per_tet 32
 json s.json lacks time_ms.read has time_ms.check has time_ms.adjacency has time_ms.order has time_ms.convexify \
     has time_ms.pack has time_ms.upload has time_ms.compile has time_ms.first_hit has time_ms.march has time_ms.frame \
     has time_ms.readback has time_ms.write has time_ms.total lacks time_ms.frame_min lacks time_ms.frame_max
@@ -45,7 +45,7 @@ done
 rm first_hit.frag
 
 # A ray that never comes out (here of its first cell) is lost, and the walk ends.
-sed 's/w.cell = mesh_neighbour(cell, dropped, w.id);/w.cell = cell;/' "$TC_SOURCE/gpu/shaders/stepper.glsl" >stepper.glsl
+sed 's/w.cell = w.n3 ^ mesh_other(w.record, dropped, w.id);/w.cell = cell;/' "$TC_SOURCE/gpu/shaders/stepper.glsl" >stepper.glsl
 for driver in pingpong compute; do
     TETCAST_SHADERS=.
     export TETCAST_SHADERS

@@ -176,7 +176,7 @@ static void gpu_bytes_count_imaginary_cells_and_added_points(void **state)
 {
     (void)state;
     tc_mesh_report report = {.n_tet = 100, .n_imaginary = 10, .n_vertex = 50, .n_steiner = 2};
-    assert_true(tc_info_gpu_bytes(&report) == 110 * 20 + 52 * 16);
+    assert_true(tc_info_gpu_bytes(&report) == 110 * 16 + 52 * 16);
 }
 
 /* ------------------------------------------------------------------------------------------------ empty pictures */

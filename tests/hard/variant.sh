@@ -57,7 +57,7 @@ eye-origin)
     ;;
 peel-exit)
     # The first hit walks on to the exit, and keeps that as the place to go on from.
-    edit first_hit.frag 's/^    out_key = mine;/    walk_look_ahead(w);\
+    edit first_hit.frag 's/^    out_key = mine;/    walk_look_ahead(w, -1);\
     Walk on = w;\
     for (int n = 0; n < 100000 \&\& on.cell >= 0; n++) {\
         walk_exact(on, ray);\

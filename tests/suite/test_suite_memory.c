@@ -24,7 +24,7 @@ static void what_is_not_needed_is_uploaded(void **state)
     tc_mesh_report report;
     tc_mesh_get_report(&report, mesh);
     size_t n_cell = report.n_tet + report.n_imaginary, n_vertex = report.n_vertex + report.n_steiner;
-    assert_true(plain.gpu_bytes_mesh == 20.0 * (double)n_cell + 16.0 * (double)n_vertex);
+    assert_true(plain.gpu_bytes_mesh == 16.0 * (double)n_cell + 16.0 * (double)n_vertex);
     assert_true(plain.gpu_bytes_table < 8e6); /* running integrals; the three-dimensional table has 33 MB */
     assert_string_equal(plain.integrator, "integral");
     assert_int_equal(plain.layers, 1);
@@ -65,7 +65,7 @@ static void what_is_not_needed_is_uploaded(void **state)
     tc_image_destroy(&image);
     tc_mesh_get_report(&report, mesh);
     assert_int_equal(report.n_imaginary, 0);
-    assert_true(peeled.gpu_bytes_mesh == 20.0 * (double)report.n_tet + 16.0 * (double)report.n_vertex);
+    assert_true(peeled.gpu_bytes_mesh == 16.0 * (double)report.n_tet + 16.0 * (double)report.n_vertex);
     assert_true(peeled.gpu_bytes_state == plain.gpu_bytes_state + 16 * pixels); /* entry keys, only when peeling */
     tc_transfer_destroy(&tf);
     tc_mesh_destroy(&mesh);
@@ -103,8 +103,8 @@ static void blunt_fin_is_wrong_or_too_large(void **state)
                   stats.layers);
         if (way == 0)
             assert_in_range(report.n_imaginary, 3500, 3600);
-        assert_true(stats.gpu_bytes_mesh <= 24 * n);
-        assert_true(stats.gpu_bytes_mesh + stats.gpu_bytes_other <= 28 * n);
+        assert_true(stats.gpu_bytes_mesh <= 20 * n);
+        assert_true(stats.gpu_bytes_mesh + stats.gpu_bytes_other <= 24 * n);
         tc_image_destroy(&image);
         tc_transfer_destroy(&tf);
     }

@@ -123,7 +123,7 @@ static void more_than_the_values_is_sent(void **state)
     tc_mesh_report report;
     tc_mesh_get_report(&report, s->mesh);
     const double points = 16.0 * (double)(report.n_vertex + report.n_steiner), cells = 4.0 * (double)report.n_tet;
-    const double all = 20.0 * (double)(report.n_tet + report.n_imaginary);
+    const double all = 16.0 * (double)(report.n_tet + report.n_imaginary);
     const struct {
         int kind;
         double sent;

@@ -32,14 +32,22 @@ static tc_pack pack_of(const tc_mesh *mesh)
 }
 
 /* What the shader does (mesh.glsl), from the record alone. */
-static int32_t fourth(const tc_pack *p, int32_t record, const int32_t *face)
+static int32_t fourth(const tc_pack *p, int32_t cell, const int32_t *face)
 {
-    return p->cell[record] ^ face[0] ^ face[1] ^ face[2];
+    return p->cell[TC_PACK_CELL_INTS * cell] ^ face[0] ^ face[1] ^ face[2];
 }
 
-static int32_t behind(const tc_pack *p, int32_t record, int32_t dropped, const int32_t *face)
+/* The neighbour opposite vertex v, whose face is given, XOR the one opposite the vertex of the largest number. */
+static int32_t other(const tc_pack *p, int32_t cell, int32_t v, const int32_t *face)
 {
-    return p->cell[record + 1 + (dropped > face[0]) + (dropped > face[1]) + (dropped > face[2])];
+    int rank = (v > face[0]) + (v > face[1]) + (v > face[2]);
+    return rank < 3 ? p->cell[TC_PACK_CELL_INTS * cell + 1 + rank] : 0;
+}
+
+/* The cell behind `exit` of who came from `from` through `entry`. */
+static int32_t behind(const tc_pack *p, int32_t cell, int32_t from, const int32_t *entry, const int32_t *exit)
+{
+    return from ^ other(p, cell, fourth(p, cell, entry), entry) ^ other(p, cell, fourth(p, cell, exit), exit);
 }
 
 static void check_records(const char *name, size_t n_cells)
@@ -50,20 +58,20 @@ static void check_records(const char *name, size_t n_cells)
     assert_int_equal(p.n_real, mesh->n_tet);
     assert_int_equal(p.n_vertex, mesh->n_vertex);
     size_t outside = 0;
-    for (size_t i = 0; i < p.n_cell; i++)
+    for (size_t i = 0; i < p.n_cell; i++) {
+        const int32_t *tet = mesh->tet + 4 * i, *neighbour = mesh->neighbour + 4 * i;
+        int32_t face[4][3];
         for (int f = 0; f < 4; f++) {
-            const int32_t *tet = mesh->tet + 4 * i;
-            const int32_t face[3] = {tet[(f + 1) & 3], tet[(f + 2) & 3], tet[(f + 3) & 3]};
-            int32_t record = (int32_t)i * TC_PACK_CELL_INTS, next = behind(&p, record, tet[f], face);
-            assert_int_equal(fourth(&p, record, face), tet[f]);
-            if (mesh->neighbour[4 * i + (size_t)f] < 0) {
-                assert_int_equal(next, -1);
-                outside++;
-                continue;
-            }
-            assert_int_equal(next, mesh->neighbour[4 * i + (size_t)f] * TC_PACK_CELL_INTS);
-            assert_int_equal(behind(&p, next, fourth(&p, next, face), face), record); /* and back */
+            for (int k = 0; k < 3; k++)
+                face[f][k] = tet[(f + 1 + k) & 3];
+            assert_int_equal(fourth(&p, (int32_t)i, face[f]), tet[f]);
+            outside += neighbour[f] < 0;
         }
+        for (int f = 0; f < 16; f++) /* from each to each, and back */
+            assert_int_equal(
+                behind(&p, (int32_t)i, neighbour[f / 4] < 0 ? -1 : neighbour[f / 4], face[f / 4], face[f % 4]),
+                neighbour[f % 4] < 0 ? -1 : neighbour[f % 4]);
+    }
     assert_int_equal(p.n_face, outside);
     tc_pack_finish(&p);
     tc_mesh_destroy(&mesh);
@@ -93,7 +101,9 @@ static void boundary_faces_look_inside(void **state)
         for (int k = 0; k < 3; k++)
             at[k] = (a[k] + b[k] + c[k]) / 3;
         assert_true(tc_vec_dot(normal, at) > 0);
-        assert_int_equal(behind(&p, face[3], fourth(&p, face[3], face), face), -1);
+        const int32_t *neighbour = mesh->neighbour + 4 * face[3], *tet = mesh->tet + 4 * face[3];
+        for (int f = 0; f < 4; f++)
+            assert_true((neighbour[f] < 0) >= (tet[f] == fourth(&p, face[3], face)));
         for (int k = 0; k < 3; k++)
             assert_memory_equal(p.face_corner + 9 * i + 3 * k, p.vertex + 4 * face[k], 3 * sizeof(float));
     }
@@ -217,8 +227,10 @@ static void an_unprepared_mesh_is_packed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_step_leads_to_another_vertex_or_cell), cmocka_unit_test(boundary_faces_look_inside),
-        cmocka_unit_test(positions_are_rounded_more_than_once),   cmocka_unit_test(cell_data_belong_to_other_cells),
+        cmocka_unit_test(a_step_leads_to_another_vertex_or_cell),
+        cmocka_unit_test(boundary_faces_look_inside),
+        cmocka_unit_test(positions_are_rounded_more_than_once),
+        cmocka_unit_test(cell_data_belong_to_other_cells),
         cmocka_unit_test(the_pack_depends_on_threads_or_values_packed_alone_differ),
         cmocka_unit_test(an_unprepared_mesh_is_packed),
     };
