@@ -16,7 +16,7 @@
 
 enum { TILE = 8 }; /* pixels along a side of a work group: march.comp's */
 /* Images that are written. Where the renderer is software, those before hold what march.comp reads (fetch.glsl). */
-enum { IMAGE_STATE_SOFTWARE = 8, IMAGES_MOST = 6 };
+enum { IMAGE_STATE_SOFTWARE = 8, IMAGES_MOST = 5 };
 enum { WALKED, OPEN, GIVEN_UP, COUNTERS }; /* of march.comp, in its order */
 
 typedef struct loop {
@@ -70,8 +70,7 @@ static tc_status prepare_march(loop *l)
     tc_march_bind_state(job, l->program, set);
     bind_image(l, "out_walk", unit++, GL_RGBA32I, set->walk);
     bind_image(l, "out_color", unit++, s->color_bits == 16 ? GL_RGBA16F : GL_RGBA32F, set->color);
-    bind_image(l, "out_at", unit++, GL_RG32F, set->at);
-    bind_image(l, "out_from", unit++, GL_R32I, set->from);
+    bind_image(l, "out_at", unit++, GL_RGBA32I, set->at);
     if (job->count)
         bind_image(l, "out_steps", unit++, GL_R32UI, set->steps);
     if (job->audit)

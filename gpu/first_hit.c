@@ -79,23 +79,23 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
         return status;
 
     const GLint nowhere[4] = {-1, 0, 0, 0}, no_key[4] = {0, 0, 0, 0};
-    const GLfloat zero[4] = {0, 0, 0, 0}, far_depth = 1;
+    const GLint entry[4] = {0, 0, -1, 0};
+    const GLfloat far_depth = 1;
     int next = layer & 1;
     if (job->peel && layer == 0) {
         gl->BindFramebuffer(GL_FRAMEBUFFER, s->hit_framebuffer[1]);
-        gl->ClearBufferiv(GL_COLOR, 2, no_key);
+        gl->ClearBufferiv(GL_COLOR, 1, no_key);
     }
     gl->BindFramebuffer(GL_FRAMEBUFFER, s->set[0].framebuffer);
-    gl->ClearBufferiv(GL_COLOR, TC_STATE_FROM, nowhere); /* whence rays come that enter */
+    gl->ClearBufferiv(GL_COLOR, TC_STATE_AT, entry);
     gl->BindFramebuffer(GL_FRAMEBUFFER, s->hit_framebuffer[job->peel ? next : 0]);
     gl->Viewport(0, 0, s->width, s->height);
     gl->DepthMask(GL_TRUE);
     gl->ClearBufferiv(GL_COLOR, 0, nowhere);
-    gl->ClearBufferfv(GL_COLOR, 1, zero);
     if (job->peel) {
         /* A ray without a further entry is out: no later layer may revive it. */
         const GLint last_key[4] = {0x7fffffff, 0x7fffffff, 0, 0};
-        gl->ClearBufferiv(GL_COLOR, 2, last_key);
+        gl->ClearBufferiv(GL_COLOR, 1, last_key);
     }
     gl->ClearBufferfv(GL_DEPTH, 0, &far_depth);
 

@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { UNIT_NODES = 2, UNIT_TABLE = 10 }; /* where there is a table, there are no pieces */
+enum { UNIT_NODES = 2, UNIT_TABLE = 8 };
 /* Of the paper's arithmetic, four each: as textures, and as images, of which there are fewer (stepper_planes.glsl). */
 enum { UNIT_PLANES = 12, IMAGE_PLANES = 4 };
-enum { UNIT_PIECES = 10, UNIT_PIECE_FLOATS = 11, IMAGE_PIECES = 3, IMAGE_PIECE_FLOATS = 14 }; /* 8 to 13: compute.c */
+enum { UNIT_PIECES = 10, UNIT_PIECE_FLOATS = 11, IMAGE_PIECES = 3, IMAGE_PIECE_FLOATS = 13 }; /* 8 to 12: compute.c */
 
 tc_status tc_march_program(GLuint *program, const tc_job *job, const char *vertex, const char *file, tc_error *err)
 {
@@ -116,7 +116,6 @@ void tc_march_bind_state(const tc_job *job, GLuint program, const tc_state_set *
     tc_pass_texture(gl, program, "state_walk", TC_UNIT_WALK, GL_TEXTURE_2D, set->walk);
     tc_pass_texture(gl, program, "state_color", TC_UNIT_COLOR, GL_TEXTURE_2D, set->color);
     tc_pass_texture(gl, program, "state_at", TC_UNIT_AT, GL_TEXTURE_2D, set->at);
-    tc_pass_texture(gl, program, "state_from", TC_UNIT_FROM, GL_TEXTURE_2D, set->from);
     if (job->count)
         tc_pass_texture(gl, program, "state_steps", TC_UNIT_STEPS, GL_TEXTURE_2D, set->steps);
     if (job->audit)

@@ -6,7 +6,7 @@
 #include "gpu/job.h"
 
 /* Texture units of the state it reads. */
-enum { TC_UNIT_WALK = 4, TC_UNIT_COLOR, TC_UNIT_AT, TC_UNIT_STEPS, TC_UNIT_FROM, TC_UNIT_AUDIT };
+enum { TC_UNIT_WALK = 4, TC_UNIT_COLOR, TC_UNIT_AT, TC_UNIT_STEPS, TC_UNIT_AUDIT = 9 };
 
 /* The program of the shader `file`, which includes march.glsl, with the job's integrator and stepper; compiled if need
  * be. vertex: the vertex shader, which in software hands the rays on (RAYS_FLAT); NULL where `file` is a compute

@@ -126,24 +126,23 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options 
         tc_state_set *set = &s->set[i];
         set->walk = screen_texture(s, gl, GL_RGBA32I, GL_RGBA_INTEGER, GL_INT);
         set->color = screen_texture(s, gl, s->color_bits == 16 ? GL_RGBA16F : GL_RGBA32F, GL_RGBA, GL_FLOAT);
-        set->at = screen_texture(s, gl, GL_RG32F, GL_RG, GL_FLOAT);
-        set->from = screen_texture(s, gl, GL_R32I, GL_RED_INTEGER, GL_INT);
+        set->at = screen_texture(s, gl, GL_RGBA32I, GL_RGBA_INTEGER, GL_INT);
         if (counting)
             set->steps = screen_texture(s, gl, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT);
         if (s->auditing)
             set->audit = screen_texture(s, gl, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
-        GLuint textures[TC_STATE_TEXTURES] = {set->walk, set->color, set->at, set->from, set->steps, set->audit};
+        GLuint textures[TC_STATE_TEXTURES] = {set->walk, set->color, set->at, set->steps, set->audit};
         int n = attachments(s);
         status = framebuffer(&set->framebuffer, s, gl, textures, n, s->lock, err);
-        s->bytes += pixels * (size_t)(28 + s->color_bits / 2 + (counting ? 4 : 0) + (s->auditing ? 16 : 0));
+        s->bytes += pixels * (size_t)(32 + s->color_bits / 2 + (counting ? 4 : 0) + (s->auditing ? 16 : 0));
     }
     for (int i = 0; i < (peeling ? 2 : 1) && status == TC_OK; i++) {
         if (peeling) {
             s->key[i] = screen_texture(s, gl, GL_RG32I, GL_RG_INTEGER, GL_INT);
             s->bytes += pixels * 8;
         }
-        GLuint textures[3] = {s->set[0].walk, s->set[0].at, s->key[i]};
-        status = framebuffer(&s->hit_framebuffer[i], s, gl, textures, peeling ? 3 : 2, s->hit_depth, err);
+        GLuint textures[2] = {s->set[0].walk, s->key[i]};
+        status = framebuffer(&s->hit_framebuffer[i], s, gl, textures, peeling ? 2 : 1, s->hit_depth, err);
     }
     if (status == TC_OK)
         status = framebuffer(&s->lock_framebuffer, s, gl, NULL, 0, s->lock, err);
@@ -166,9 +165,9 @@ tc_status tc_state_create(tc_state *s, const tc_gl *gl, const tc_render_options 
 void tc_state_finish(tc_state *s, const tc_gl *gl)
 {
     for (int i = 0; i < 2; i++) {
-        GLuint textures[7] = {s->set[i].walk,  s->set[i].color, s->set[i].at, s->set[i].from,
+        GLuint textures[6] = {s->set[i].walk,  s->set[i].color, s->set[i].at,
                               s->set[i].steps, s->set[i].audit, s->key[i]};
-        gl->DeleteTextures(7, textures); /* 0 is ignored */
+        gl->DeleteTextures(6, textures); /* 0 is ignored */
         gl->DeleteFramebuffers(1, &s->set[i].framebuffer);
         gl->DeleteFramebuffers(1, &s->hit_framebuffer[i]);
     }
@@ -184,14 +183,13 @@ void tc_state_finish(tc_state *s, const tc_gl *gl)
 
 void tc_state_poison(const tc_state *s, const tc_gl *gl)
 {
-    static const GLenum types[TC_STATE_TEXTURES] = {GL_INT, GL_FLOAT,        GL_FLOAT,
-                                                    GL_INT, GL_UNSIGNED_INT, GL_UNSIGNED_INT};
+    static const GLenum types[TC_STATE_TEXTURES] = {GL_INT, GL_FLOAT, GL_INT, GL_UNSIGNED_INT, GL_UNSIGNED_INT};
     int n = attachments(s);
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < n; k++)
             poison_color(gl, s->set[i].framebuffer, k, types[k]);
     for (int i = 0; i < 2 && s->peeling; i++)
-        poison_color(gl, s->hit_framebuffer[i], 2, GL_INT);
+        poison_color(gl, s->hit_framebuffer[i], 1, GL_INT);
     for (int i = 0; i < 2 && s->adaptive; i++)
         poison_color(gl, s->spread_framebuffer, i, GL_FLOAT);
     if (s->adaptive)

@@ -6,15 +6,14 @@
 #include "gpu/gl.h"
 
 /* The attachments of tc_state_set.framebuffer, as march.frag has them. */
-enum { TC_STATE_WALK, TC_STATE_COLOR, TC_STATE_AT, TC_STATE_FROM, TC_STATE_STEPS, TC_STATE_AUDIT, TC_STATE_TEXTURES };
+enum { TC_STATE_WALK, TC_STATE_COLOR, TC_STATE_AT, TC_STATE_STEPS, TC_STATE_AUDIT, TC_STATE_TEXTURES };
 
 typedef struct tc_state_set {
-    GLuint walk;        /* RGBA32I: cell, face's vertices */
-    GLuint color;       /* RGBA32F or RGBA16F: colour, optical depth or transmittance */
-    GLuint at;          /* RG32F: depth, scalar */
-    GLuint from;        /* R32I: the cell it comes from, -1: from outside */
-    GLuint steps;       /* R32UI, only when counting */
-    GLuint audit;       /* RGBA32UI: length and length in real cells (float bits), hash, broken; only when auditing */
+    GLuint walk;  /* RGBA32I: cell, face's vertices */
+    GLuint color; /* RGBA32F or RGBA16F: colour, optical depth or transmittance */
+    GLuint at;    /* RGBA32I: depth, scalar (bits of floats), the cell it comes from, 1; or 0 0 -1 0: where it enters */
+    GLuint steps; /* R32UI, only when counting */
+    GLuint audit; /* RGBA32UI: length and length in real cells (float bits), hash, broken; only when auditing */
     GLuint framebuffer; /* all of them, and the lock */
 } tc_state_set;
 
@@ -26,7 +25,7 @@ typedef struct tc_state {
     GLuint lock;                       /* depth renderbuffer: near where the ray is finished */
     GLuint lock_framebuffer;           /* the lock alone */
     GLuint hit_depth;                  /* depth renderbuffer of the first hit */
-    GLuint hit_framebuffer[2];         /* walk and at of set 0, key i when peeling */
+    GLuint hit_framebuffer[2];         /* walk of set 0, key i when peeling */
     GLuint key[2];                     /* RG32I: previous and next entry, only when peeling */
     GLuint result, result_framebuffer; /* RGBA32F */
     /* Only when sampling adaptively: the most of each channel among a pixel's rays and minus the least (RGBA32F), and

@@ -11,7 +11,7 @@ uniform isamplerBuffer faces; // a, b, c counter-clockwise from outside, and the
 uniform isampler2D peel_key;   // depth_key, and 1 + the face id, of the previous entry
 uniform sampler2D state_color; // to leave out rays that ended by opacity
 uniform float transmittance_stop;
-layout(location = 2) out ivec2 out_key;
+layout(location = 1) out ivec2 out_key;
 #endif
 #ifndef PEEL
 // All that survive, whether the first or not. Counters far enough apart that cores that work on other parts of the picture
@@ -25,7 +25,6 @@ layout(std430, binding = 0) restrict buffer Entries {
 uniform usampler2D sample_mask; // 1 where a pixel has a ray
 #endif
 layout(location = 0) out ivec4 out_walk;
-layout(location = 1) out vec2 out_at;
 
 // Depths as integers that sort as they do, each its own from 2^-51 to 2^12 half diagonals on both sides of 0 (nearer to 0
 // all are one): as many as fit between the smallest normal float and 1, so that the depth buffer holds them too.
@@ -73,5 +72,4 @@ void main()
 #endif
     gl_FragDepth = intBitsToFloat(key); // the bits of a positive float sort as it does
     out_walk = ivec4(w.cell, w.id);
-    out_at = vec2(w.z, w.s);
 }

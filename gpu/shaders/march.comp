@@ -12,12 +12,10 @@ uniform ivec4 rect; // x, y, width, height of the pixels that may have a ray
 
 uniform isampler2D state_walk; // cell, a, b, c
 uniform sampler2D state_color; // what the ray gathered so far
-uniform sampler2D state_at;    // depth, scalar
-uniform isampler2D state_from; // the cell it comes from, -1: from outside
+uniform isampler2D state_at;   // state.h
 writeonly restrict uniform iimage2D out_walk;
 writeonly restrict uniform image2D out_color;
-writeonly restrict uniform image2D out_at;
-writeonly restrict uniform iimage2D out_from;
+writeonly restrict uniform iimage2D out_at;
 #ifdef COUNT
 uniform usampler2D state_steps;
 writeonly restrict uniform uimage2D out_steps;
@@ -45,12 +43,11 @@ void main()
     ivec4 walk = inside ? texelFetch(state_walk, pixel, 0) : ivec4(-1);
     if (walk.x >= 0) {
         vec4 color = texelFetch(state_color, pixel, 0);
-        vec2 at = texelFetch(state_at, pixel, 0).xy;
-        int from = texelFetch(state_from, pixel, 0).x;
+        ivec4 at = texelFetch(state_at, pixel, 0);
 #ifdef AUDIT
         audit_begin(texelFetch(state_audit, pixel, 0));
 #endif
-        int k = march(walk, color, at, from, vec2(pixel) + 0.5);
+        int k = march(walk, color, at, vec2(pixel) + 0.5);
 #ifdef COUNT
         imageStore(out_steps, pixel, uvec4(texelFetch(state_steps, pixel, 0).x + uint(k)));
 #endif
@@ -61,8 +58,7 @@ void main()
         imageStore(out_walk, pixel, walk);
         atomicCounterIncrement(rays_walked);
         if (walk.x >= 0) {
-            imageStore(out_at, pixel, vec4(at, 0.0, 0.0));
-            imageStore(out_from, pixel, ivec4(from));
+            imageStore(out_at, pixel, at);
             atomicCounterIncrement(rays_open);
         }
         if (walk.x == GIVEN_UP)

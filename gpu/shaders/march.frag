@@ -5,28 +5,25 @@
 
 uniform isampler2D state_walk; // cell, a, b, c
 uniform sampler2D state_color; // the integrator's accumulated colour and transmittance
-uniform sampler2D state_at;    // depth, scalar
-uniform isampler2D state_from; // the cell it comes from, -1: from outside
+uniform isampler2D state_at;   // state.h
 #ifdef COUNT
 uniform usampler2D state_steps;
-layout(location = 4) out uint out_steps;
+layout(location = 3) out uint out_steps;
 #endif
 #ifdef AUDIT
 uniform usampler2D state_audit;
-layout(location = 5) out uvec4 out_audit;
+layout(location = 4) out uvec4 out_audit;
 #endif
 layout(location = 0) out ivec4 out_walk;
 layout(location = 1) out vec4 out_color;
-layout(location = 2) out vec2 out_at;
-layout(location = 3) out int out_from;
+layout(location = 2) out ivec4 out_at;
 
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     ivec4 walk = texelFetch(state_walk, pixel, 0);
     vec4 color = texelFetch(state_color, pixel, 0);
-    vec2 at = texelFetch(state_at, pixel, 0).xy;
-    int from = texelFetch(state_from, pixel, 0).x;
+    ivec4 at = texelFetch(state_at, pixel, 0);
 #ifdef COUNT
     uint steps = texelFetch(state_steps, pixel, 0).x;
 #endif
@@ -34,7 +31,7 @@ void main()
     audit_begin(texelFetch(state_audit, pixel, 0));
 #endif
     if (walk.x >= 0) {
-        int k = march(walk, color, at, from, gl_FragCoord.xy);
+        int k = march(walk, color, at, gl_FragCoord.xy);
 #ifdef COUNT
         steps += uint(k);
 #endif
@@ -42,7 +39,6 @@ void main()
     out_walk = walk;
     out_color = color;
     out_at = at;
-    out_from = from;
 #ifdef COUNT
     out_steps = steps;
 #endif

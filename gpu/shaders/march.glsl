@@ -102,9 +102,9 @@ void march_stop(inout Walk w, Integral integral)
 }
 
 // Up to steps_per_pass steps of the ray through `pixel`, which is not finished. walk: its cell, negative once it is
-// finished, and a, b, c; color: the integrator's; at: depth, scalar; from: the cell it comes from, -1: from outside. Gives
-// the number of steps.
-int march(inout ivec4 walk, inout vec4 color, inout vec2 at, inout int from, vec2 pixel)
+// finished, and a, b, c; color: the integrator's; at: depth and scalar (bits of floats), the cell it comes from, 1; where it
+// enters, 0, 0, -1, 0. Gives the number of steps.
+int march(inout ivec4 walk, inout vec4 color, inout ivec4 at, vec2 pixel)
 {
     int most = keep(steps_per_pass);
     march_unit = keep(length_unit);
@@ -117,9 +117,11 @@ int march(inout ivec4 walk, inout vec4 color, inout vec2 at, inout int from, vec
     Walk w;
     int facing;
     walk_face(w, ray, walk.x, walk.yzw, facing);
-    w.z = at.x;
-    w.s = at.y;
-    walk_look_ahead(w, from);
+    if (at.w != 0) {
+        w.z = intBitsToFloat(at.x);
+        w.s = intBitsToFloat(at.y);
+    }
+    walk_look_ahead(w, at.z);
     Integral integral = integral_begin(color, w.s);
     int k = 0;
     bool open = false;     // the last step's segment is not all added yet
@@ -155,7 +157,6 @@ int march(inout ivec4 walk, inout vec4 color, inout vec2 at, inout int from, vec
     }
     color = integral_end(integral);
     walk = ivec4(w.cell, w.id);
-    at = vec2(w.z, w.s);
-    from = walk_from(w);
+    at = ivec4(floatBitsToInt(w.z), floatBitsToInt(w.s), walk_from(w), 1);
     return k;
 }

@@ -30,8 +30,9 @@ ivec4 mesh_record(int cell)
 // A cell's neighbour opposite vertex v, XOR its n3; `face` are its three other vertices, `record` is its record.
 int mesh_other(ivec4 record, int v, ivec3 face)
 {
-    int rank = int(v > face.x) + int(v > face.y) + int(v > face.z);
-    return rank == 0 ? record.y : rank == 1 ? record.z : rank == 2 ? record.w : 0;
+    bool x = v > face.x, y = v > face.y, z = v > face.z; // how many of them hold says its place in the order
+    bool one = x || y || z, two = x && y || z && (x || y), all = x && y && z;
+    return all ? 0 : two ? record.w : one ? record.z : record.y;
 }
 
 bool mesh_is_real(int cell)

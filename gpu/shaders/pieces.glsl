@@ -14,7 +14,7 @@
 #include "integrate_depth.glsl"
 
 FETCH_BUFFER(3) tf_pieces; // three an end of pieces: x; r g b a below; those above, which differ at a step
-FETCH_FLOATS(14) tf_piece_floats; // the same, float by float
+FETCH_FLOATS(13) tf_piece_floats; // the same, float by float
 uniform int tf_piece_count;
 uniform int tf_piece_half; // a power of two, at least half the count
 

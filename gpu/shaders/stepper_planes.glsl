@@ -18,6 +18,7 @@ uniform float planes_longest;       // edge of the real cells
 float planes_longest_kept = 0.0;
 
 const int WALK_LOST = -3;           // in place of a cell
+const float PLANES_LEAST = 1.0e-30;
 const float PLANES_FAR = 1.0e6;     // "an appropriately large number" (3.3): nothing in the mesh is that far
 
 // A ray about to enter `cell`.
@@ -46,7 +47,14 @@ bool walk_face(out Walk w, Ray ray, int cell, ivec3 id, out int facing)
     facing = 1;
     if (id.x < 0)
         return true;
-    vec3 a = fetch(mesh_vertices, id.x).xyz, b = fetch(mesh_vertices, id.y).xyz, c = fetch(mesh_vertices, id.z).xyz;
+    vec4 vertex_a = fetch(mesh_vertices, id.x), vertex_b = fetch(mesh_vertices, id.y), vertex_c = fetch(mesh_vertices, id.z);
+    vec3 a = vertex_a.xyz, b = vertex_b.xyz, c = vertex_c.xyz;
+    vec3 p = ray_project(ray, a), q = ray_project(ray, b), r = ray_project(ray, c);
+    vec3 weight = vec3(q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x);
+    weight = max(weight, PLANES_LEAST); // for the first hit has found the ray in the face
+    float sum = weight.x + weight.y + weight.z;
+    w.z = dot(weight, vec3(p.z, q.z, r.z)) / sum;
+    w.s = dot(weight, vec3(vertex_a.w, vertex_b.w, vertex_c.w)) / sum;
     int entry = 0, best = -1;
     for (int i = 0; i < 4; i++) { // the face at the boundary whose opposite vertex is none of the three
         vec3 v = fetch(planes_vertices, 4 * w.t + i).xyz;

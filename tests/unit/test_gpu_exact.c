@@ -159,7 +159,7 @@ static void bind(const tc_job *job, GLuint program)
             half *= 2;
         tc_pass_fetch(gl, program, "tf_pieces", job->software ? 3 : 10, GL_RGBA32F, job->transfer->pieces.texture,
                       job->software);
-        tc_pass_fetch(gl, program, "tf_piece_floats", job->software ? 14 : 11, GL_R32F, job->transfer->piece_floats,
+        tc_pass_fetch(gl, program, "tf_piece_floats", job->software ? 13 : 11, GL_R32F, job->transfer->piece_floats,
                       job->software);
         tc_pass_int(gl, program, "tf_piece_count", job->n_piece);
         tc_pass_int(gl, program, "tf_piece_half", half);

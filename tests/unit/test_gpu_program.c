@@ -120,7 +120,7 @@ static void compilers_errors_name_another_line(void **state)
         {"#define mesh_record 3 3\n", "mesh.glsl", "ivec4 mesh_record("},
         {"#define SIGN_TINY 3 3\n", "signs.glsl", "const float SIGN_TINY"},
         {"#define tf_table 3 3\n", "integrate_table.glsl", "uniform sampler3D tf_table"},
-        {"#define out_at 3 3\n", "march.frag", "out vec2 out_at"},
+        {"#define out_at 3 3\n", "march.frag", "out ivec4 out_at"},
         {"#define place_in_tile 3 3\n", "march.comp", "ivec2 place_in_tile("},
     };
     bool any = false;

@@ -285,7 +285,7 @@ static void programs_see_a_vertex_at_different_places(void **state)
     /* One unit may not have samplers of two kinds. */
     static const char *const samplers[] = {"mesh_cells", "mesh_vertices", "tf_nodes",    "mesh_cell_scalar",
                                            "faces",      "peel_key",      "state_color", "state_walk",
-                                           "state_at",   "tf_table",      "state_steps", "state_from"};
+                                           "state_at",   "tf_table",      "state_steps"};
     bool any = false;
     int32_t *first = malloc(sizeof(int32_t) * 4 * SIDE * SIDE);
     assert_non_null(first);
