@@ -9,8 +9,8 @@
 enum { TC_UNIT_WALK = 4, TC_UNIT_COLOR, TC_UNIT_AT, TC_UNIT_STEPS, TC_UNIT_AUDIT = 9 };
 
 /* The program of the shader `file`, which includes march.glsl, with the job's integrator and stepper; compiled if need
- * be. vertex: the vertex shader, which in software hands the rays on (RAYS_FLAT); NULL where `file` is a compute
- * shader. Errors: TC_E_GL. */
+ * be. vertex: the vertex shader, which in software hands the rays on (RAYS_FLAT); NULL where `file` is a compute shader.
+ * Errors: TC_E_GL. */
 tc_status tc_march_program(GLuint *program, const tc_job *job, const char *vertex, const char *file, tc_error *err);
 /* Puts the program in use and binds all that it reads but the state. */
 void tc_march_bind(const tc_job *job, GLuint program);

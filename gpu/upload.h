@@ -26,10 +26,10 @@ typedef struct tc_gpu_mesh {
  * away then. Errors: TC_E_MEMORY (with the figure needed), TC_E_GL. */
 tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *pack, const tc_pack_planes *planes,
                              tc_error *err);
-/* Other values onto a mesh that was uploaded without planes: pack is tc_pack_scalars', of the same mesh. Sent are the
- * values alone: of points with the vertices that hold them, of cells in an array of their own, which comes and goes
- * with them; the vertices then only when it comes. *bytes gets how many. Errors: as tc_gpu_mesh_upload; the mesh is
- * then to be uploaded anew. */
+/* Other values onto a mesh that was uploaded without planes: pack is tc_pack_scalars', of the same mesh. Sent are the values
+ * alone: of points with the vertices that hold them, of cells in an array of their own, which comes and goes with them; the
+ * vertices then only when it comes. *bytes gets how many. Errors: as tc_gpu_mesh_upload; the mesh is then to be uploaded
+ * anew. */
 tc_status tc_gpu_mesh_values(tc_gpu_mesh *mesh, size_t *bytes, const tc_gl *gl, const tc_pack *pack, tc_error *err);
 size_t tc_gpu_mesh_bytes(const tc_gpu_mesh *mesh);
 void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl);

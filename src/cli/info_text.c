@@ -35,12 +35,10 @@ static const tc_defect tc_defect_list[] = {
     {"merged_vertices", "points coincided with another and were merged with it", AT(merged_vertices)},
     {"unused_vertices", "points belong to no cell and were dropped", AT(unused_vertices)},
     {"unlinked_faces", NULL, AT(unlinked_faces)},
-    {"faces_of_many",
-     "faces have three cells or more; they are treated as boundaries, where rays leave and enter again",
+    {"faces_of_many", "faces have three cells or more; they are treated as boundaries, where rays leave and enter again",
      AT(faces_of_many)},
-    {"faces_one_side",
-     "faces lie between two cells on one side, which overlap; they are treated as boundaries, and the "
-     "cells composited in the order of entry",
+    {"faces_one_side", "faces lie between two cells on one side, which overlap; they are treated as boundaries, and the "
+                       "cells composited in the order of entry",
      AT(faces_one_side)},
     {"nonfinite_scalars", "values of the field are NaN or infinite", AT(nonfinite_scalars)},
     {"nonfinite_cells", "tets have such a value and are transparent; render --nan-color shows them",

@@ -8,7 +8,7 @@ typedef struct tc_info {
     const char *input;
     const tc_source *source; /* NULL for a synthetic dataset */
     tc_mesh_report report;
-    bool prepared; /* tc_mesh_prepare went well: the report is whole */
+    bool prepared;  /* tc_mesh_prepare went well: the report is whole */
     tc_input_seen seen;
     double unit_distance;
 } tc_info;
