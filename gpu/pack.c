@@ -208,7 +208,7 @@ static void load_lanes(lanes *l, const float *vertex, const int32_t *tet, size_t
             memcpy(l->vertex[i][c], vertex + 4 * (size_t)tet[4 * c + (size_t)i], sizeof l->vertex[i][c]);
 }
 
-static void measure_lanes(lanes *l)
+static void measure_edges(lanes *l)
 {
     memset(l->square, 0, sizeof l->square);
     for (int i = 1; i < 4; i++)
@@ -218,18 +218,14 @@ static void measure_lanes(lanes *l)
                 float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2], square = x * x + y * y + z * z;
                 l->square[c] = larger(square, l->square[c]);
             }
-    float lo[LANES], hi[LANES];
-    for (int c = 0; c < LANES; c++) {
-        float s[4] = {l->vertex[0][c][3], l->vertex[1][c][3], l->vertex[2][c][3], l->vertex[3][c][3]};
-        float least = smaller(smaller(s[0], s[1]), smaller(s[2], s[3]));
-        float most = larger(larger(s[0], s[1]), larger(s[2], s[3]));
-        float unknown = (s[0] + s[1] + s[2] + s[3]) * 0; /* 0, or NaN */
+    for (int c = 0; c < LANES; c++)
         l->edge[c] = sqrtf(l->square[c]);
-        l->edge_range[c] = l->edge[c] * (most - least) + unknown;
-        lo[c] = larger(least, 0); /* a number in any case */
-        hi[c] = larger(most, 0);
-    }
-    for (int c = 0; c < LANES; c++) { /* apart, so that no branch keeps the compiler from lanes */
+}
+
+/* The bins of cells with scalars from lo to hi, both numbers. */
+static void place_lanes(lanes *l, const float lo[LANES], const float hi[LANES])
+{
+    for (int c = 0; c < LANES; c++) {
         float from = lo[c] * TC_PACK_BINS, to = hi[c] * TC_PACK_BINS;
         int32_t first = (int32_t)from, last = (int32_t)to;
         l->first[c] = first < TC_PACK_BINS ? first : TC_PACK_BINS - 1;
@@ -237,6 +233,31 @@ static void measure_lanes(lanes *l)
         l->before[c] = from - (float)l->first[c];
         l->after[c] = to - (float)l->last[c];
     }
+}
+
+static void measure_vertex_values(lanes *l)
+{
+    float lo[LANES], hi[LANES];
+    for (int c = 0; c < LANES; c++) {
+        float s[4] = {l->vertex[0][c][3], l->vertex[1][c][3], l->vertex[2][c][3], l->vertex[3][c][3]};
+        float least = smaller(smaller(s[0], s[1]), smaller(s[2], s[3]));
+        float most = larger(larger(s[0], s[1]), larger(s[2], s[3]));
+        float unknown = (s[0] + s[1] + s[2] + s[3]) * 0; /* 0, or NaN */
+        l->edge_range[c] = l->edge[c] * (most - least) + unknown;
+        lo[c] = larger(least, 0); /* a number in any case */
+        hi[c] = larger(most, 0);
+    }
+    place_lanes(l, lo, hi); /* apart, so that no branch keeps the compiler from lanes */
+}
+
+static void measure_cell_values(lanes *l, const float *value, size_t n)
+{
+    float at[LANES] = {0};
+    for (size_t c = 0; c < n; c++) {
+        l->edge_range[c] = value[c] * 0; /* 0, or NaN */
+        at[c] = larger(value[c], 0);
+    }
+    place_lanes(l, at, at);
 }
 
 /* Values of cells, and what each chunk adds to the extent. */
@@ -251,12 +272,13 @@ static void extent_range(void *context, size_t begin, size_t end, int worker)
     for (size_t i = begin; i < end; i += LANES) {
         size_t n = end - i < LANES ? end - i : LANES;
         load_lanes(&l, pack->vertex, j->mesh->tet + 4 * i, n);
-        if (pack->cell_scalar)
+        measure_edges(&l);
+        if (pack->cell_scalar) {
             map_scalars(pack->cell_scalar + i, j->mesh->scalar + i, n, pack->scalar_lo, pack->scalar_hi);
-        for (size_t c = 0; c < n && pack->cell_scalar; c++)
-            for (int k = 0; k < 4; k++)
-                l.vertex[k][c][3] = pack->cell_scalar[i + c];
-        measure_lanes(&l);
+            measure_cell_values(&l, pack->cell_scalar + i, n);
+        } else {
+            measure_vertex_values(&l);
+        }
         for (size_t c = 0; c < n; c++)
             if (!isnan(l.edge_range[c]))
                 gather_cell(&g, &l, c);
