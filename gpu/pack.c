@@ -423,7 +423,7 @@ tc_status tc_pack_build(tc_pack *out, const tc_mesh *mesh, int threads, tc_error
     out->face_corner = tc_alloc(faces, 9 * sizeof *out->face_corner);
     if (!j.first || !out->cell || !out->face || !out->face_corner) {
         tc_pack_finish(out);
-        status = tc_fail_memory(err, "the packed mesh", n, 24);
+        status = tc_fail_memory(err, "the packed mesh", n, TC_PACK_CELL_INTS * sizeof *out->cell);
     } else {
         tc_parallel_for(n, CHUNK, threads, cell_range, &j);
         out->ms += tc_now_ms() - start;

@@ -176,7 +176,8 @@ static double bend(const job *j, const place *p, const tc_knot *a, const tc_knot
 }
 
 /* Knots strictly inside (a, b), as few as lines as long as they may be need. A line of length h is off by h^2 times the
- * curvature, or by h where the curve has a corner or a jump after all; there lengths are halved until doubles end. */
+ * curvature, or by h where the curve has a corner, or ever by the same at a jump, after all: there lengths are halved,
+ * until doubles end. */
 static void divide(job *j, const place *p, const tc_knot *a, const tc_knot *b)
 {
     enum { TRIES = 4 }; /* for a longer line than one that fits */
@@ -196,7 +197,7 @@ static void divide(job *j, const place *p, const tc_knot *a, const tc_knot *b)
             } else {
                 off = length;
             }
-            length *= fmax(0.5, fmin(2, 0.99 / sqrt(fmax(share, 1e-9))));
+            length *= tries > TRIES && fits == 0 ? 0.5 : fmax(0.5, fmin(2, 0.99 / sqrt(fmax(share, 1e-9))));
             if (fits == left || length < 1.03 * fits)
                 break;
             if (length >= off)

@@ -78,11 +78,11 @@ void tc_mesh_say_defects(const tc_log *log, const tc_mesh_report *r)
 
 /* Beside the mesh itself, at most: until the arrays it came in are given back, new ones (16 B a tet for its vertices, 4
  * for where it came from, 36 a vertex) with links (16) and what finds them (10); then, in place of the old ones (16 and
- * 32), what gpu/pack.c and GL's copy of it take (40 and 32). */
+ * 32), what gpu/pack.c and GL's copy of it take (32 and 32). */
 static size_t memory_of(const tc_mesh *m)
 {
     size_t values = m->association == TC_CELL_DATA ? 8 : 0;
-    return m->n_tet * (60 + values) + m->n_vertex * 36;
+    return m->n_tet * (52 + values) + m->n_vertex * 36;
 }
 
 static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const tc_log *log, tc_error *err)
