@@ -12,7 +12,6 @@
 #define FETCH_INTS(unit, format) uniform isamplerBuffer
 #define fetch(buffer, i) texelFetch(buffer, i)
 #endif
-#define FETCH_IBUFFER(unit) FETCH_INTS(unit, r32i)
 
 // What a loop reads of uniforms is read once, before it, and kept: llvmpipe gathers a uniform lane by lane, at each place
 // that reads it. A mere copy would not do, for compilers put the uniform in its place again. Floats are above KEEP_LEAST; ints, not

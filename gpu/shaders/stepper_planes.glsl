@@ -12,7 +12,7 @@
 
 FETCH_BUFFER(4) planes_vertices;    // at 4*t + i: v(t,i)
 FETCH_BUFFER(5) planes_normals;     // n(t,i), 1 + f(t,i) (negative: imaginary cell)
-FETCH_IBUFFER(6) planes_neighbours; // a(t,i), -1: outside
+FETCH_INTS(6, r32i) planes_neighbours; // a(t,i), -1: outside
 FETCH_BUFFER(7) planes_scalars;     // at t: g(t) and its offset
 uniform float planes_longest;       // edge of the real cells
 float planes_longest_kept = 0.0;
