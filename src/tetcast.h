@@ -358,6 +358,8 @@ typedef struct tc_compare_result {
 /* Errors: TC_E_ARG when sizes differ. */
 TC_API tc_status tc_image_compare(tc_compare_result *out, const tc_image *a, const tc_image *b, tc_error *err);
 
+#include "tetcast_look.h"
+
 /* ----------------------------------------------------------------------------------------------------- render */
 
 /* How a segment's colour and opacity are found (docs/architecture.md, "Segment integrals"): TABLE, the 2003 paper's
@@ -433,6 +435,7 @@ typedef struct tc_render_options {
                                      TC_SAMPLES_ADAPTIVE: 4, and 16 in their place where they differ by more than
                                      1/32 in a channel. More than 1: not with audit */
     tc_state_format state_format; /* of colour and opacity between passes; AUTO: 32F */
+    const struct tc_look *look;   /* borrowed; NULL: the plain density emitter */
 } tc_render_options;
 
 TC_API void tc_render_defaults(tc_render_options *options);

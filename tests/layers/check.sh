@@ -33,7 +33,7 @@ includes() {
         name = quoted[2]
         depth = split(name, step, "/")
         seen++
-        if (name == "tetcast.h" || depth == 1) # the public header, or a neighbour in the same folder
+        if (name ~ /^tetcast(_[a-z]+)?\.h$/ || depth == 1) # a public header, or a neighbour in the same folder
             next
         target = step[1]
         if (!(target in rank))
