@@ -2,26 +2,29 @@
 #include "gpu/accumulate.h"
 
 #include "core/memory.h"
+#include "gpu/effect.h"
 #include "gpu/pass.h"
 #include "scene/samples.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static tc_status get_program(GLuint *program, const tc_job *job, const char *fragment, bool share, tc_error *err)
 {
     bool depth = tc_job_holds_depth(job);
-    const char *defines = depth && share ? "#define COLOR_HOLDS_DEPTH\n#define SHARE\n"
-                          : depth        ? "#define COLOR_HOLDS_DEPTH\n"
-                          : share        ? "#define SHARE\n"
-                                         : "";
-    const tc_program_source source = {"screen.vert", fragment, defines, NULL};
+    const tc_effects *effects = job->effects;
+    char defines[1024];
+    snprintf(defines, sizeof defines, "%s%s%s%s", depth ? "#define COLOR_HOLDS_DEPTH\n" : "",
+             share ? "#define SHARE\n" : "", effects && *effects->shaders && job->software ? "#define SOFTWARE\n" : "",
+             effects ? effects->defines : "");
+    const tc_program_source source = {"screen.vert", fragment, defines, NULL, effects ? effects->shaders : NULL};
     return tc_program_get(program, job->programs, &source, err);
 }
 
 static tc_status get_mask_program(GLuint *program, const tc_job *job, tc_error *err)
 {
-    const tc_program_source source = {"screen.vert", "mask.frag", "", NULL};
+    const tc_program_source source = {"screen.vert", "mask.frag", "", NULL, NULL};
     return tc_program_get(program, job->programs, &source, err);
 }
 
@@ -63,6 +66,8 @@ static void draw_state(const tc_job *job, GLuint program, GLuint framebuffer)
     tc_pass_texture(gl, program, "state_color", 0, GL_TEXTURE_2D, job->state->set[job->last].color);
     gl->Uniform3f(gl->GetUniformLocation(program, "color_most"), (float)job->most[0], (float)job->most[1],
                   (float)job->most[2]);
+    if (job->effects)
+        tc_effects_bind(job->effects, job, program);
     tc_pass_screen(gl);
     gl->Disable(GL_BLEND);
 }

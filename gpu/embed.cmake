@@ -2,6 +2,9 @@
 #   cmake -DDIR=… -DOUT=… -P embed.cmake
 file(GLOB shaders RELATIVE ${DIR} ${DIR}/*.glsl ${DIR}/*.vert ${DIR}/*.frag ${DIR}/*.comp)
 list(SORT shaders)
+file(GLOB effects RELATIVE ${DIR} ${DIR}/effects/*.glsl) # behind the others, whose numbers in #line stay
+list(SORT effects)
+list(APPEND shaders ${effects})
 set(text "/* The shaders of gpu/shaders as text; written by gpu/embed.cmake. */\n#include \"gpu/program.h\"\n\n")
 string(APPEND text "const tc_shader_file tc_shader_files[] = {\n")
 foreach(shader ${shaders})

@@ -59,7 +59,7 @@ static tc_status get_program(GLuint *program, const tc_job *job, tc_error *err)
 {
     char defines[512];
     tc_first_hit_defines(defines, sizeof defines, job);
-    const tc_program_source source = {"first_hit.vert", "first_hit.frag", defines, NULL};
+    const tc_program_source source = {"first_hit.vert", "first_hit.frag", defines, NULL, NULL};
     return tc_program_get(program, job->programs, &source, err);
 }
 

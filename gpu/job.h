@@ -58,6 +58,7 @@ typedef struct tc_job {
     int last;                           /* as tc_job_result has it, for what comes behind the walk */
     bool masked;                        /* only the pixels that state->mask marks have a ray */
     bool software;                      /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
+    const struct tc_effects *effects;   /* effect.h; NULL: none */
 } tc_job;
 
 typedef struct tc_job_result {

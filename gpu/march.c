@@ -1,6 +1,7 @@
 /* march.c: the march's program and what it reads, whichever driver runs it. */
 #include "gpu/march.h"
 
+#include "gpu/effect.h"
 #include "gpu/pass.h"
 
 #include <stdio.h>
@@ -13,22 +14,26 @@ enum { UNIT_PIECES = 10, UNIT_PIECE_FLOATS = 11, IMAGE_PIECES = 3, IMAGE_PIECE_F
 
 tc_status tc_march_program(GLuint *program, const tc_job *job, const char *vertex, const char *file, tc_error *err)
 {
-    char defines[512], alias[128];
+    const tc_effects *effects = job->effects;
+    char defines[1024], alias[128];
     tc_job_defines(defines, sizeof defines, job);
     size_t n = strlen(defines);
-    if (vertex && job->software)
-        snprintf(defines + n, sizeof defines - n, "#define RAYS_FLAT\n");
+    bool range = effects && (effects->needs & TC_NEEDS_RANGE);
+    snprintf(defines + n, sizeof defines - n, "%s%s%s%s", vertex && job->software ? "#define RAYS_FLAT\n" : "",
+             range && !job->frame->clip_near ? "#define CLIP_NEAR\n" : "",
+             range && !job->frame->clip_far ? "#define CLIP_FAR\n" : "", effects ? effects->defines : "");
     snprintf(alias, sizeof alias, "integrator.glsl=%s%s",
-             job->drift                               ? "integrate_drift.glsl"
+             effects && effects->integrator           ? effects->integrator
+             : job->drift                               ? "integrate_drift.glsl"
              : job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl"
              : job->integrator == TC_INTEGRATOR_EXACT ? "integrate_exact.glsl"
                                                       : "integrate_integral.glsl",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
-    const tc_program_source source = {vertex, file, defines, alias};
+    const tc_program_source source = {vertex, file, defines, alias, effects ? effects->shaders : NULL};
     return tc_program_get(program, job->programs, &source, err);
 }
 
-static void bind_pieces(const tc_job *job, GLuint program)
+void tc_march_bind_pieces(const tc_job *job, GLuint program)
 {
     const tc_gl *gl = job->gl;
     int half = 1;
@@ -65,14 +70,14 @@ static void bind_transfer(const tc_job *job, GLuint program)
         else
             tc_pass_vec2(gl, program, "tf_texel[2]", job->texel[2][0], job->texel[2][1]);
     } else if (job->integrator == TC_INTEGRATOR_EXACT) {
-        bind_pieces(job, program);
+        tc_march_bind_pieces(job, program);
     } else {
         tc_pass_fetch(gl, program, "tf_nodes", UNIT_NODES, GL_RGBA32F, job->transfer->nodes.texture, job->software);
         tc_pass_vec2(gl, program, "tf_grid", job->grid[0], job->grid[1]);
         tc_pass_float(gl, program, "tf_near", job->near);
         tc_pass_vec4(gl, program, "tf_mean", job->mean);
         if (job->hard > 0) {
-            bind_pieces(job, program);
+            tc_march_bind_pieces(job, program);
             const double hard[4] = {job->hard, job->hard / job->hard_depth, job->hard / job->hard_slope,
                                     job->hard / job->hard_slope * job->hard_relative};
             tc_pass_vec4(gl, program, "tf_hard", hard);
@@ -108,6 +113,8 @@ void tc_march_bind(const tc_job *job, GLuint program)
     tc_pass_float(gl, program, "transmittance_stop", job->transmittance_stop);
     if (job->has_nan_color)
         tc_pass_vec4(gl, program, "nan_color", job->nan_color);
+    if (job->effects)
+        tc_effects_bind(job->effects, job, program);
 }
 
 void tc_march_bind_state(const tc_job *job, GLuint program, const tc_state_set *set)

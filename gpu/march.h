@@ -12,6 +12,8 @@ enum { TC_UNIT_WALK = 4, TC_UNIT_COLOR, TC_UNIT_AT, TC_UNIT_STEPS, TC_UNIT_AUDIT
  * be. vertex: the vertex shader, which in software hands the rays on (RAYS_FLAT); NULL where `file` is a compute shader.
  * Errors: TC_E_GL. */
 tc_status tc_march_program(GLuint *program, const tc_job *job, const char *vertex, const char *file, tc_error *err);
+/* Binds the pieces of the function, which pieces.glsl reads, to the program in use. */
+void tc_march_bind_pieces(const tc_job *job, GLuint program);
 /* Puts the program in use and binds all that it reads but the state. */
 void tc_march_bind(const tc_job *job, GLuint program);
 /* Binds the state to read. The program must be in use. */

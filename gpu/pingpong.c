@@ -37,8 +37,8 @@ typedef struct loop {
 static tc_status get_programs(loop *l)
 {
     const tc_job *job = l->job;
-    const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL},
-                            lost = {"screen.vert", "lost.frag", "", NULL};
+    const tc_program_source lock = {"screen.vert", "lock.frag", "", NULL, NULL},
+                            lost = {"screen.vert", "lost.frag", "", NULL, NULL};
     tc_status status = tc_march_program(&l->march, job, "screen.vert", "march.frag", l->err);
     if (status == TC_OK)
         status = tc_program_get(&l->lock, job->programs, &lock, l->err);

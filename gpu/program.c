@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { LINES_PER_FILE = 10000, MAX_FILES = 64, LOG_BYTES = 4096 };
+enum { LINES_PER_FILE = 10000, MAX_FILES = 128, DEEPEST = 12, LOG_BYTES = 4096 };
 
 typedef struct text {
     char *data;
@@ -22,7 +22,7 @@ typedef struct text {
 typedef struct assembly {
     text out;
     bool included[MAX_FILES];
-    const char *alias;
+    const char *alias, *effects;
     tc_error *err;
 } assembly;
 
@@ -86,56 +86,166 @@ static tc_status read_override(char **out, const char *name, tc_error *err)
     return TC_OK;
 }
 
-static tc_status add_text(assembly *a, int index, const char *p, int depth);
+static tc_status add_lines(assembly *a, int index, const char *p, int line, const char *section, int depth);
+
+/* The text of file `index`; *override is to be freed. */
+static tc_status file_text(const char **out, char **override, int index, tc_error *err)
+{
+    tc_status status = read_override(override, tc_shader_files[index].name, err);
+    *out = *override ? *override : tc_shader_files[index].text;
+    return status;
+}
 
 static tc_status add_file(assembly *a, int index, int depth)
 {
     if (a->included[index])
         return TC_OK;
     a->included[index] = true;
-    if (depth > 8)
+    if (depth > DEEPEST)
         return tc_fail(a->err, TC_E_GL, "shader %s: includes nest too deep", tc_shader_files[index].name);
     char *override;
-    tc_status status = read_override(&override, tc_shader_files[index].name, a->err);
+    const char *whole;
+    tc_status status = file_text(&whole, &override, index, a->err);
     if (status == TC_OK)
-        status = add_text(a, index, override ? override : tc_shader_files[index].text, depth);
+        status = add_lines(a, index, whole, 1, NULL, depth);
     free(override);
     return status;
 }
 
-/* Adds the text p of file `index`, and what it includes. */
-static tc_status add_text(assembly *a, int index, const char *p, int depth)
+static tc_status add_line_directive(assembly *a, int index, int line)
 {
-    char line_directive[64];
-    int line = 1;
-    snprintf(line_directive, sizeof line_directive, "#line %d\n", index * LINES_PER_FILE + line);
-    tc_status status = text_add(&a->out, line_directive, strlen(line_directive), a->err);
-    while (status == TC_OK && *p) {
-        const char *end = strchr(p, '\n');
-        end = end ? end + 1 : p + strlen(p);
-        if (strncmp(p, "#include \"", 10) == 0) {
-            const char *name = p + 10, *quote = strchr(name, '"');
-            int other = quote ? resolve(a, name, (size_t)(quote - name)) : -1;
-            if (other < 0)
-                return tc_fail(a->err, TC_E_GL, "shader %s:%d includes a file that does not exist",
-                               tc_shader_files[index].name, line);
-            status = add_file(a, other, depth + 1);
-            snprintf(line_directive, sizeof line_directive, "#line %d\n", index * LINES_PER_FILE + line + 1);
-            if (status == TC_OK)
-                status = text_add(&a->out, line_directive, strlen(line_directive), a->err);
-        } else {
-            status = text_add(&a->out, p, (size_t)(end - p), a->err);
+    char directive[64];
+    snprintf(directive, sizeof directive, "#line %d\n", index * LINES_PER_FILE + line);
+    return text_add(&a->out, directive, strlen(directive), a->err);
+}
+
+/* Is the line "//@section NAME", of this name or, with NULL, of any? */
+static bool begins_section(const char *line, const char *name)
+{
+    static const char mark[] = "//@section ";
+    if (strncmp(line, mark, sizeof mark - 1) != 0)
+        return false;
+    const char *begin = line + sizeof mark - 1;
+    size_t n = strcspn(begin, " \n");
+    return !name || (strlen(name) == n && strncmp(begin, name, n) == 0);
+}
+
+/* Adds the sections of this name of all effects; *n gets their number. With add false they are counted alone. */
+static tc_status add_sections(assembly *a, int *n, const char *name, bool add, int depth)
+{
+    tc_status status = TC_OK;
+    *n = 0;
+    if (depth > DEEPEST)
+        return tc_fail(a->err, TC_E_GL, "shaders: the places of effects nest too deep at %s", name);
+    for (const char *file = a->effects; file && *file && status == TC_OK; file += strspn(file, " ")) {
+        size_t length = strcspn(file, " ");
+        int index = file_index(file, length), line = 0;
+        char *override = NULL;
+        const char *p;
+        if (index < 0)
+            return tc_fail(a->err, TC_E_GL, "there is no shader %.*s", (int)length, file);
+        status = file_text(&p, &override, index, a->err);
+        while (status == TC_OK && *p) {
+            const char *end = strchr(p, '\n');
+            end = end ? end + 1 : p + strlen(p);
+            line++;
+            if (begins_section(p, name)) {
+                ++*n;
+                if (add)
+                    status = add_lines(a, index, end, line + 1, name, depth + 1);
+            }
+            p = end;
         }
-        line++;
-        p = end;
+        free(override);
+        file += length;
     }
     return status;
 }
 
-tc_status tc_program_text(char **out, const char *file, const char *defines, const char *alias, tc_error *err)
+/* What a line's mark says: how long the line is without it, and the place's name; kind 0 none, 't'hen, 'o'r. */
+typedef struct mark {
+    size_t length;
+    char kind, place[64];
+} mark;
+
+static mark find_mark(const char *p, const char *end)
+{
+    mark m = {(size_t)(end - p), 0, ""};
+    for (const char *at = p; at + 10 < end; at++) {
+        bool then = strncmp(at, " //@then ", 9) == 0, or = strncmp(at, " //@or ", 7) == 0;
+        if (!then && !or)
+            continue;
+        const char *name = at + (then ? 9 : 7);
+        size_t n = strcspn(name, " \n");
+        if (n >= sizeof m.place)
+            continue;
+        memcpy(m.place, name, n);
+        m.place[n] = 0;
+        m.length = (size_t)(at - p);
+        m.kind = then ? 't' : 'o';
+        break;
+    }
+    return m;
+}
+
+/* Adds one line of a file, without its end. */
+static tc_status add_line(assembly *a, int index, int line, const char *p, size_t length, int depth)
+{
+    if (strncmp(p, "#include \"", 10) != 0) {
+        tc_status status = text_add(&a->out, p, length, a->err);
+        return status == TC_OK ? text_add(&a->out, "\n", 1, a->err) : status;
+    }
+    const char *name = p + 10, *quote = strchr(name, '"');
+    int other = quote ? resolve(a, name, (size_t)(quote - name)) : -1;
+    if (other < 0)
+        return tc_fail(a->err, TC_E_GL, "shader %s:%d includes a file that does not exist", tc_shader_files[index].name,
+                       line);
+    tc_status status = add_file(a, other, depth + 1);
+    return status == TC_OK ? add_line_directive(a, index, line + 1) : status;
+}
+
+/* Adds the text p of file `index`, which begins at `line`, and what it includes; a section of it ends where the next one
+ * begins. */
+static tc_status add_lines(assembly *a, int index, const char *p, int line, const char *section, int depth)
+{
+    char taken[64] = ""; /* the place of the lines before, where they gave way */
+    tc_status status = add_line_directive(a, index, line);
+    for (; status == TC_OK && *p && !(section && begins_section(p, NULL)); line++) {
+        const char *next = strchr(p, '\n'), *end = next ? next : p + strlen(p);
+        mark m = find_mark(p, end);
+        int n = 0;
+        if (m.kind == 'o' && strcmp(taken, m.place) != 0)
+            status = add_sections(a, &n, m.place, false, depth);
+        if (status == TC_OK && n > 1)
+            return tc_fail(a->err, TC_E_GL, "shader %s:%d: two effects take the place %s, or one of them twice",
+                           tc_shader_files[index].name, line, m.place);
+        if (m.kind == 'o' && n == 1) {
+            snprintf(taken, sizeof taken, "%s", m.place);
+            status = add_sections(a, &n, m.place, true, depth);
+        } else if (m.kind == 'o' && strcmp(taken, m.place) == 0 && *taken) {
+            n = 0;
+        } else {
+            if (*taken) { /* the first line behind those that gave way */
+                status = status == TC_OK ? add_line_directive(a, index, line) : status;
+                *taken = 0;
+            }
+            if (status == TC_OK)
+                status = add_line(a, index, line, p, m.length, depth);
+            if (status == TC_OK && m.kind == 't')
+                status = add_sections(a, &n, m.place, true, depth);
+            if (status == TC_OK && n > 0)
+                status = add_line_directive(a, index, line + 1);
+        }
+        p = next ? next + 1 : end;
+    }
+    return status;
+}
+
+tc_status tc_program_text(char **out, const char *file, const char *defines, const char *alias, const char *effects,
+                          tc_error *err)
 {
     *out = NULL;
-    assembly a = {.alias = alias, .err = err};
+    assembly a = {.alias = alias, .effects = effects, .err = err};
     int index = file_index(file, strlen(file));
     if (index < 0)
         return tc_fail(err, TC_E_GL, "there is no shader %s", file);
@@ -256,9 +366,9 @@ tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_prog
     *program = 0;
     char *vertex = NULL, *fragment = NULL;
     tc_status status =
-        source->vertex ? tc_program_text(&vertex, source->vertex, source->defines, source->alias, err) : TC_OK;
+        source->vertex ? tc_program_text(&vertex, source->vertex, source->defines, source->alias, source->effects, err) : TC_OK;
     if (status == TC_OK)
-        status = tc_program_text(&fragment, source->fragment, source->defines, source->alias, err);
+        status = tc_program_text(&fragment, source->fragment, source->defines, source->alias, source->effects, err);
     if (status != TC_OK)
         goto done;
     for (size_t i = 0; i < cache->n; i++)

@@ -14,11 +14,12 @@ extern const tc_shader_file tc_shader_files[];
 /* What a program is made of: a vertex and a fragment shader, or, with vertex NULL, a compute shader in the place of the
  * fragment shader. `defines` are lines such as "#define PEEL\n" (may be ""); `alias` is pairs of include
  * names, "integrator.glsl=integrate_table.glsl stepper.glsl=stepper_planes.glsl" (the first of each is read as the
- * second), or NULL. */
+ * second), or NULL. `effects` are names of shader files, each once, with spaces between them, or NULL: see below. */
 typedef struct tc_program_source {
     const char *vertex, *fragment;
     const char *defines;
     const char *alias;
+    const char *effects;
 } tc_program_source;
 
 typedef struct tc_program_cache tc_program_cache;
@@ -33,7 +34,14 @@ void tc_program_cache_destroy(tc_program_cache **cache);
 
 /* The text of one shader stage: version line, defines, the file with #include resolved once each. malloc'd. `alias`
  * replaces include names by others ("integrator.glsl=integrate_table.glsl", with a space between two such pairs).
- * Errors: TC_E_GL, TC_E_MEMORY. */
-tc_status tc_program_text(char **out, const char *file, const char *defines, const char *alias, tc_error *err);
+ *
+ * Places. A line of a shader may end in a place for effects: behind "CODE //@then PLACE" their sections of that name are
+ * put, in the order of `effects`; lines "CODE //@or PLACE" give way to the section of one of them. A file of an effect
+ * consists of sections, each from a line "//@section PLACE" to the next, and they hold includes and places in turn; what
+ * stands before the first one is for readers. The marks themselves never reach the compiler: with no effects the text is
+ * that of shaders without places, byte by byte.
+ * Errors: TC_E_GL (also where two effects take one place), TC_E_MEMORY. */
+tc_status tc_program_text(char **out, const char *file, const char *defines, const char *alias, const char *effects,
+                          tc_error *err);
 
 #endif

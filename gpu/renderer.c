@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "gpu/audit.h"
+#include "gpu/effect.h"
 #include "gpu/first_hit.h"
 #include "gpu/pass.h"
 #include "gpu/picture.h"
@@ -44,6 +45,7 @@ struct tc_gpu_renderer {
     double center[3], scale, scalar_lo, scalar_hi, ms_pack;
 
     tc_transfer_gpu transfer;
+    tc_effect_store effects;
     tc_state state;
     tc_proposals proposals;
     int drawn[4]; /* part of the result that is not empty */
@@ -86,6 +88,7 @@ void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer)
         const tc_gl *gl = &r->context->gl;
         tc_gpu_mesh_finish(&r->mesh, gl);
         tc_transfer_gpu_finish(&r->transfer, gl);
+        tc_effect_store_finish(&r->effects, gl);
         tc_state_finish(&r->state, gl);
         tc_program_cache_destroy(&r->programs);
         gl->DeleteVertexArrays(2, r->vertex_array);
@@ -261,6 +264,7 @@ static void fill_stats(tc_render_stats *stats, const tc_gpu_renderer *r, const t
     stats->layers = result->layers;
     stats->rays = result->rays;
     stats->rays_lost = result->rays_lost;
+    tc_effects_names(stats->effects, sizeof stats->effects, job->effects);
     stats->ms_first_hit = result->ms_first_hit;
     stats->ms_march = result->ms_march;
 }
@@ -292,6 +296,28 @@ static tc_status peel_picture(tc_picture *picture, tc_gpu_renderer *r, tc_error 
     return status == TC_OK ? tc_picture_make(picture, err) : status;
 }
 
+/* What the picture calls for, and the function it is made with. */
+static tc_status prepare_effects(tc_effects *out, const tc_transfer **function, size_t *bytes, tc_gpu_renderer *r,
+                                 const tc_gpu_frame *frame, double length_unit, tc_error *err)
+{
+    static const tc_look plain = {0};
+    const tc_effect_scene scene = {
+        .mesh = frame->mesh,
+        .transfer = frame->transfer,
+        .options = frame->options,
+        .look = frame->options->look ? frame->options->look : &plain,
+        .center = {r->center[0], r->center[1], r->center[2]},
+        .scale = r->scale,
+        .scalar = {r->scalar_lo, r->scalar_hi},
+        .length_unit = length_unit,
+        .threads = r->threads,
+    };
+    tc_status status = tc_effects_choose(out, &scene, err);
+    if (status == TC_OK)
+        status = tc_effects_function(function, &r->effects, out, err);
+    return status == TC_OK ? tc_effects_update(out, bytes, &r->effects, &r->context->gl, err) : status;
+}
+
 tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu_frame *frame, tc_error *err)
 {
     r->audited = false;
@@ -318,17 +344,24 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
         tc_state_poison(&r->state, gl);
     tc_job job = {.gl = gl, .programs = r->programs, .state = &r->state, .mesh = &r->mesh};
     job.driver = frame->driver;
+    job.length_unit = fmin(1 / (r->scale * frame->unit_distance), 1e30); /* a float, and its products */
+    tc_effects effects;
+    const tc_transfer *function = frame->transfer;
+    size_t effect_bytes = 0;
+    if (status == TC_OK)
+        status = prepare_effects(&effects, &function, &effect_bytes, r, frame, job.length_unit, err);
     if (status == TC_OK) {
-        job.length_unit = fmin(1 / (r->scale * frame->unit_distance), 1e30); /* a float, and its products */
+        job.effects = &effects;
         job.cell_data = r->mesh.cell_scalar.texture != 0;
         const tc_transfer_gpu_request request = {
-            .transfer = frame->transfer,
+            .transfer = function,
             .options = options,
             .scalar = {r->scalar_lo, r->scalar_hi},
             .length_max = mesh->report.longest_edge * r->scale * job.length_unit,
             .extent = &r->extent,
             .length_unit = job.length_unit,
             .cell_data = job.cell_data,
+            .pieces_only = (effects.needs & TC_NEEDS_PIECES) != 0,
             .threads = r->threads,
         };
         status = tc_transfer_gpu_ensure(&r->transfer, &job, &request, gl, stats, err);
@@ -343,7 +376,8 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.has_nan_color = job.nonfinite && options->has_nan_color;
     memcpy(job.nan_color, options->nan_color, sizeof job.nan_color);
     job.nan_color[3] = fmin(job.nan_color[3], OPAQUE);
-    find_most(job.most, frame->transfer, job.has_nan_color ? job.nan_color : NULL);
+    find_most(job.most, function, job.has_nan_color ? job.nan_color : NULL);
+    tc_effects_brighten(job.most, &effects);
     double stop = options->opacity_stop > 0                    ? options->opacity_stop
                   : options->integrator == TC_INTEGRATOR_EXACT ? OPACITY_STOP_EXACT
                                                                : OPACITY_STOP;
@@ -386,6 +420,8 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     const tc_job_result result = picture.result;
     if (status == TC_OK)
         fill_stats(stats, r, &job, &result);
+    if (status == TC_OK)
+        stats->gpu_bytes_other += (double)effect_bytes;
     if (status == TC_OK && job.count) {
         free(r->fragments);
         r->fragments = result.fragments;
@@ -438,7 +474,7 @@ tc_status tc_gpu_read(float *rgba, tc_render_stats *stats, tc_gpu_renderer *r, t
 tc_status tc_gpu_draw(tc_gpu_renderer *r, unsigned framebuffer, tc_error *err)
 {
     const tc_gl *gl = &r->context->gl;
-    const tc_program_source source = {"screen.vert", "copy.frag", "", NULL};
+    const tc_program_source source = {"screen.vert", "copy.frag", "", NULL, NULL};
     GLuint program;
     tc_status status = tc_program_get(&program, r->programs, &source, err);
     if (status != TC_OK)

@@ -13,6 +13,7 @@ typedef struct tc_transfer_gpu_request {
     const tc_pack_extent *extent;
     double length_unit; /* mesh space → unit distances */
     bool cell_data;
+    bool pieces_only; /* an effect needs the function piece by piece */
     int threads;
 } tc_transfer_gpu_request;
 

@@ -175,16 +175,17 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
     const tc_render_options *options = request->options;
     const tc_transfer *tf = request->transfer;
     bool range = request->scalar[1] > request->scalar[0], few = tf->n <= PIECES_MOST;
+    bool exact = options->integrator == TC_INTEGRATOR_EXACT || request->pieces_only;
     bool as_it_is = options->integral_order > 0 || options->integral_split > 0;
     const char *reason = NULL;
-    *out = (tc_transfer_plan){.integrator = options->integrator, .order = options->integral_order == 1 ? 1 : 2};
+    *out = (tc_transfer_plan){.integrator = exact ? TC_INTEGRATOR_EXACT : options->integrator, .order = options->integral_order == 1 ? 1 : 2};
     find_span(out->span, request);
-    if (options->integrator == TC_INTEGRATOR_TABLE && (range || options->table_format == TC_TABLE_8 || !few)) {
+    if (!exact && options->integrator == TC_INTEGRATOR_TABLE && (range || options->table_format == TC_TABLE_8 || !few)) {
         if (range)
             memcpy(out->span, request->scalar, sizeof out->span); /* a table knows nothing outside */
         return TC_OK;
     }
-    if (options->integrator == TC_INTEGRATOR_EXACT && !few)
+    if (exact && !few)
         return tc_fail(
             err, TC_E_ARG,
             "the transfer function has %zu knots, more than the %d that can be integrated one by one; use the "
@@ -193,7 +194,9 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
     out->dense = !(deepest(request) < DENSE_DEPTH);
     const double crossed = crossed_knots(request);
     out->twice = crossed > CROSSED_TWICE; /* as long as the integrator may be EXACT */
-    if (options->integrator == TC_INTEGRATOR_EXACT)
+    if (options->integrator != TC_INTEGRATOR_EXACT && exact)
+        snprintf(why, capacity, "piece by piece of the function: what else is shown needs it");
+    if (exact)
         return TC_OK;
     out->integrator = TC_INTEGRATOR_INTEGRAL;
     out->split = isfinite(options->integral_split) ? options->integral_split : 0;

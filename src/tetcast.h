@@ -445,6 +445,7 @@ TC_API void tc_render_defaults(tc_render_options *options);
 typedef struct tc_render_stats {
     char context[32], gl_renderer[128], gl_version[64], driver[16], stepper[16], integrator[16];
     char integrator_why[256];
+    char effects[256];   /* in force, with ", " between their names */
     double opacity_stop; /* in force; 1: never */
     int integral_order;  /* in force, -1: none */
     int samples;         /* rays a pixel: 1, 4, 16 or TC_SAMPLES_ADAPTIVE */

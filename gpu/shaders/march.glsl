@@ -2,7 +2,7 @@
 // Weiler et al. 2003, 3.4.
 
 #include "stepper.glsl"
-#include "integrator.glsl"
+#include "integrator.glsl" //@then march_declare
 
 uniform int steps_per_pass;
 uniform float length_unit;         // half diagonals → unit distances
@@ -53,7 +53,7 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
 #ifdef AUDIT
     audit.broken += walk_holding_faces(w) == 2u ? 0u : 1u;
 #endif
-    Segment segment = walk_step(w, ray);
+    Segment segment = walk_step(w, ray); //@then march_segment
 #ifdef CLIP_NEAR
     if (segment.z0 < ray.near) {
         if (segment.z1 > ray.near) {
@@ -92,7 +92,7 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
         integral_enter(integral, segment.s1);
     }
 #endif
-    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * march_unit : 0.0);
+    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * march_unit : 0.0); //@or march_add
 }
 
 // Ends the ray where it is opaque.
@@ -113,7 +113,7 @@ int march(inout ivec4 walk, inout vec4 color, inout ivec4 at, vec2 pixel)
     march_nan_color = keep(nan_color);
 #endif
     mesh_begin();
-    Ray ray = ray_of_pixel(pixel);
+    Ray ray = ray_of_pixel(pixel); //@then march_ray
     Walk w;
     int facing;
     walk_face(w, ray, walk.x, walk.yzw, facing);
@@ -122,10 +122,10 @@ int march(inout ivec4 walk, inout vec4 color, inout ivec4 at, vec2 pixel)
         w.s = intBitsToFloat(at.y);
     }
     walk_look_ahead(w, at.z);
-    Integral integral = integral_begin(color, w.s);
+    Integral integral = integral_begin(color, w.s); //@then march_begin
     int k = 0;
     bool open = false;     // the last step's segment is not all added yet
-#define GOES_ON (open || w.cell >= 0 && k < most)
+#define GOES_ON (open || w.cell >= 0 && k < most) //@or march_goes_on
     // Loops in one another: what is rare waits in the outer ones until all lanes of a group need it or are done.
 #ifdef TF_HARD
     do {
@@ -133,17 +133,17 @@ int march(inout ivec4 walk, inout vec4 color, inout ivec4 at, vec2 pixel)
     do {
         walk_exact(w, ray);
         do {
-            if (!open) {
-                march_step(w, ray, integral);
-                k++;
-            }
+            if (!open) { //@or march_next
+                march_step(w, ray, integral); //@or march_next
+                k++; //@or march_next
+            } //@or march_next
             open = integral_round(integral);
 #ifdef PIECES_TWICE
             if (open)
                 open = integral_round(integral);
 #endif
-            if (!open)
-                march_stop(w, integral);
+            if (!open) //@or march_added
+                march_stop(w, integral); //@or march_added
         } while (GOES_ON && !integral_waits(integral) && walk_fast(w, ray));
     } while (GOES_ON && !integral_waits(integral));
 #ifdef TF_HARD
@@ -154,7 +154,7 @@ int march(inout ivec4 walk, inout vec4 color, inout ivec4 at, vec2 pixel)
     if (w.cell == MARCH_OPAQUE) {
         integral_stop(integral, w.s);
         w.cell = MARCH_ENDED;
-    }
+    } //@then march_end
     color = integral_end(integral);
     walk = ivec4(w.cell, w.id);
     at = ivec4(floatBitsToInt(w.z), floatBitsToInt(w.s), walk_from(w), 1);

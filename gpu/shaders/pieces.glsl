@@ -122,9 +122,9 @@ bool piece_round(inout Gathered g, inout Place p)
     float m1 = 1.0 / 6.0 + t2 * (1.0 / 240.0 + t2 * (1.0 / 26880.0)), m2 = 1.0 / 60.0 + t2 * (1.0 / 3360.0);
     float bend = sqrt(1.0 - opacity) * d * (m1 + d * (m2 + d * (1.0 / 840.0 + d * (1.0 / 15120.0))));
     float share = clamp(t * n - bend, 0.0, opacity);
-    g.rgb += g.transmittance * (p.front.rgb * share + back.rgb * (opacity - share));
-    g.depth += t;
-    g.transmittance -= g.transmittance * opacity;
+    g.rgb += g.transmittance * (p.front.rgb * share + back.rgb * (opacity - share)); //@or piece_light
+    g.depth += t; //@or piece_light
+    g.transmittance -= g.transmittance * opacity; //@or piece_light
     p.x = end;
     p.rest = max(p.rest - part, 0.0);
 #ifdef PIECES_DENSE

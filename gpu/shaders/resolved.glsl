@@ -1,11 +1,11 @@
 // resolved.glsl: what a ray gathered as premultiplied colour.
 #include "state.glsl"
 uniform sampler2D state_color;
-uniform vec3 color_most; // of the function: rounding may leave a little more light than opacity and colours allow
+uniform vec3 color_most; // of the function: rounding may leave a little more light than opacity and colours allow //@then resolved_declare
 
 vec4 resolved(ivec2 pixel)
 {
     vec4 color = texelFetch(state_color, pixel, 0);
-    float opacity = state_opacity(color);
-    return vec4(clamp(color.rgb, vec3(0.0), opacity * color_most), opacity); // or -1e-9
+    float opacity = state_opacity(color); //@or resolved
+    return vec4(clamp(color.rgb, vec3(0.0), opacity * color_most), opacity); // or -1e-9 //@or resolved
 }

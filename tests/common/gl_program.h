@@ -84,7 +84,7 @@ static inline char *gl_shader_text(const char *file, const char *defines, const 
 {
     char *text;
     tc_error err = {0};
-    if (tc_program_text(&text, file, defines, alias, &err) != TC_OK)
+    if (tc_program_text(&text, file, defines, alias, NULL, &err) != TC_OK)
         fail_msg("%s", err.text);
     return text;
 }

@@ -65,12 +65,12 @@ static void missing_files_are_not_named(void **state)
     char *text;
     char expected[64];
     tc_error err = {0};
-    assert_int_equal(tc_program_text(&text, "absent.frag", "", NULL, &err), TC_E_GL);
+    assert_int_equal(tc_program_text(&text, "absent.frag", "", NULL, NULL, &err), TC_E_GL);
     assert_null(text);
     assert_non_null(strstr(err.text, "absent.frag"));
     static const char *const aliases[] = {NULL, "integrator.glsl=absent.glsl"};
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(tc_program_text(&text, "march.frag", "", aliases[i], &err), TC_E_GL);
+        assert_int_equal(tc_program_text(&text, "march.frag", "", aliases[i], NULL, &err), TC_E_GL);
         assert_null(text);
         snprintf(expected, sizeof expected, "march.glsl:%d", line_of("march.glsl", "#include \"integrator.glsl\""));
         if (!strstr(err.text, expected))
@@ -132,7 +132,7 @@ static void compilers_errors_name_another_line(void **state)
         for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
             const bool compute = strcmp(breaks[i].file, "march.comp") == 0;
             const tc_program_source source = {compute ? NULL : "screen.vert", compute ? "march.comp" : "march.frag",
-                                              breaks[i].define, "integrator.glsl=integrate_table.glsl"};
+                                              breaks[i].define, "integrator.glsl=integrate_table.glsl", NULL};
             GLuint program;
             tc_error err = {0};
             assert_int_equal(tc_program_get(&program, one.cache, &source, &err), TC_E_GL);
@@ -198,7 +198,7 @@ static GLuint get(tc_program_cache *cache, const char *vertex, const char *fragm
              : job->integrator == TC_INTEGRATOR_EXACT ? "exact"
                                                       : "integral",
              job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
-    return get_source(cache, &(tc_program_source){vertex, fragment, defines, alias});
+    return get_source(cache, &(tc_program_source){vertex, fragment, defines, alias, NULL});
 }
 
 static void expect_uniform(const tc_gl *gl, GLuint program, const char *name, bool expected, int features)
@@ -306,13 +306,13 @@ static void the_paper_s_stepper_is_where_it_is_not_asked_for(void **state)
     static const char *const textures[] = {"planes_vertices", "planes_normals", "planes_neighbours", "planes_scalars"};
     static const char both[] = "integrator.glsl=integrate_table.glsl stepper.glsl=stepper_planes.glsl";
     char *text;
-    assert_int_equal(tc_program_text(&text, "march.frag", "", both, NULL), TC_OK);
+    assert_int_equal(tc_program_text(&text, "march.frag", "", both, NULL, NULL), TC_OK);
     assert_int_equal(count(text, "Segment walk_step("), 1);
     assert_int_equal(count(text, "uniform sampler3D tf_table"), 1);
     assert_int_equal(count(text, "sign_cross"), 0);
     assert_true(count(text, "planes_normals") > 0);
     free(text);
-    assert_int_equal(tc_program_text(&text, "march.frag", "", "integrator.glsl=integrate_table.glsl", NULL), TC_OK);
+    assert_int_equal(tc_program_text(&text, "march.frag", "", "integrator.glsl=integrate_table.glsl", NULL, NULL), TC_OK);
     assert_int_equal(count(text, "planes_"), 0);
     free(text);
 
@@ -361,7 +361,7 @@ static void marks_are_read_where_every_pixel_has_a_ray(void **state)
     fixture o = open_any();
     for (int peel = 0; peel < 2; peel++) {
         const tc_program_source source = {"first_hit.vert", "first_hit.frag",
-                                          peel ? "#define SAMPLE_MASK\n#define PEEL\n" : "#define SAMPLE_MASK\n", NULL};
+                                          peel ? "#define SAMPLE_MASK\n#define PEEL\n" : "#define SAMPLE_MASK\n", NULL, NULL};
         expect_uniform(&o.context->gl, get_source(o.cache, &source), "sample_mask", true, peel);
     }
     close_fixture(&o);
@@ -416,7 +416,7 @@ static void some_shader_does_not_compile(void **state)
     get(o.cache, "screen.vert", "spread.frag", &none);
     static const char *const shares[] = {"#define SHARE\n", "#define SHARE\n#define COLOR_HOLDS_DEPTH\n"};
     for (int i = 0; i < 2; i++) {
-        const tc_program_source source = {"screen.vert", "resolve.frag", shares[i], NULL};
+        const tc_program_source source = {"screen.vert", "resolve.frag", shares[i], NULL, NULL};
         expect_uniform(gl, get_source(o.cache, &source), "share", true, i);
     }
     close_fixture(&o);

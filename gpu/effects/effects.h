@@ -1,0 +1,9 @@
+/* effects.h: the rows of tc_effect_table, each in the file of its name. */
+#ifndef TC_GPU_EFFECTS_H
+#define TC_GPU_EFFECTS_H
+
+#include "gpu/effect.h"
+
+extern const tc_effect tc_effect_density_emitter, tc_effect_clip;
+
+#endif

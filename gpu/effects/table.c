@@ -1,0 +1,8 @@
+/* table.c: all effects. Their sections stand in the programs in this order. */
+#include "gpu/effects/effects.h"
+
+const tc_effect *const tc_effect_table[] = {
+    &tc_effect_density_emitter,
+    &tc_effect_clip,
+    NULL,
+};
