@@ -124,11 +124,11 @@ int choose_step(const ReadRequest &request, const std::vector<double> &times, st
 
 // ------------------------------------------------------------------------------------------------ dispatch
 
-static tc_sniffed sniff(const std::string &path)
+static tc_sniffed sniff(const std::string &path, bool surface)
 {
     tc_sniffed sniffed;
     tc_error err;
-    if (tc_sniff_file(&sniffed, path.c_str(), &err) != TC_OK)
+    if ((surface ? tc_sniff_surface : tc_sniff_file)(&sniffed, path.c_str(), &err) != TC_OK)
         throw Refusal(err.text);
     return sniffed;
 }
@@ -148,6 +148,9 @@ static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sni
     case TC_FORMAT_OPENFOAM:
     case TC_FORMAT_CGNS:
     case TC_FORMAT_PLOT3D:
+    case TC_FORMAT_STL:
+    case TC_FORMAT_OBJ:
+    case TC_FORMAT_PLY:
         reader = make_more_reader(path, sniffed);
         break;
     default:
@@ -155,7 +158,7 @@ static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sni
     }
     reader->open(talk);
     const std::vector<Offered> offered = reader->arrays();
-    if (!offered.empty())
+    if (!offered.empty() && !request.surface)
         require_wanted(path, request.field, offered);
     reader->select(request.field, request.all_ranges);
     const std::vector<double> times = reader->times();
@@ -180,7 +183,7 @@ static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sni
 Loaded load_file(const ReadRequest &request, VtkTalk &talk)
 {
     Loaded out;
-    const tc_sniffed sniffed = sniff(request.path);
+    const tc_sniffed sniffed = sniff(request.path, request.surface);
     if (sniffed.format != TC_FORMAT_PVD && sniffed.format != TC_FORMAT_SERIES) {
         load_one(out, request.path, sniffed, request, false, talk);
         return out;
@@ -190,7 +193,7 @@ Loaded load_file(const ReadRequest &request, VtkTalk &talk)
     out.step = choose_step(request, series.time, out.notes);
     for (const std::string &file : series.files[(size_t)out.step]) {
         try {
-            const tc_sniffed inner = sniff(file);
+            const tc_sniffed inner = sniff(file, request.surface);
             load_one(out, file, inner, request, true, talk);
         } catch (const Refusal &refusal) {
             throw Refusal(request.path + " lists a file that is not read: " + refusal.what());

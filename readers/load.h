@@ -23,6 +23,7 @@ struct ReadRequest {
     int refine = 0;
     bool all_ranges = false; // read every array, not only the wanted one
     bool keep = false;       // more requests follow
+    bool surface = false;    // triangles and lines alone: no array is read
     std::string mesh;        // hash of the mesh that need not be sent; "": none
 };
 
@@ -51,6 +52,8 @@ std::unique_ptr<Reader> make_more_reader(const std::string &path, const tc_sniff
 std::unique_ptr<Reader> make_case_reader(const std::string &path, const tc_sniffed &sniffed); // load_cases.cpp
 std::unique_ptr<Reader> make_plot3d_reader(const std::string &path);                          // load_plot3d.cpp
 std::unique_ptr<Reader> make_hdf_reader(const std::string &path);                             // more.cpp
+
+std::unique_ptr<Reader> make_surface_reader(const std::string &path, const tc_sniffed &sniffed); // load_surface.cpp
 
 // A list of files over time: PVD collection or .series.
 struct Series {

@@ -6,11 +6,13 @@
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLMultiBlockDataReader.h>
 #include <vtkXMLPImageDataReader.h>
+#include <vtkXMLPPolyDataReader.h>
 #include <vtkXMLPRectilinearGridReader.h>
 #include <vtkXMLPStructuredGridReader.h>
 #include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLPartitionedDataSetCollectionReader.h>
 #include <vtkXMLPartitionedDataSetReader.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
 #include <vtkXMLStructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -40,6 +42,8 @@ const XmlRow xml_rows[] = {
     {"PRectilinearGrid", "VTK XML rectilinear grid in pieces", make<vtkXMLPRectilinearGridReader>},
     {"ImageData", "VTK XML image data", make<vtkXMLImageDataReader>},
     {"PImageData", "VTK XML image data in pieces", make<vtkXMLPImageDataReader>},
+    {"PolyData", "VTK XML polygonal data", make<vtkXMLPolyDataReader>}, // of surfaces alone: sniff.c refuses them else
+    {"PPolyData", "VTK XML polygonal data in pieces", make<vtkXMLPPolyDataReader>},
     {"vtkMultiBlockDataSet", "VTK XML multi-block data set", make<vtkXMLMultiBlockDataReader>},
     {"vtkPartitionedDataSet", "VTK XML partitioned data set", make<vtkXMLPartitionedDataSetReader>},
     {"vtkPartitionedDataSetCollection", "VTK XML collection of partitioned data sets",

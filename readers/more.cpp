@@ -29,6 +29,10 @@ extern "C" tetcast::Reader *tetcast_more_reader(const std::string &path, const t
         return tetcast::make_hdf_reader(path).release();
     case TC_FORMAT_PLOT3D:
         return tetcast::make_plot3d_reader(path).release();
+    case TC_FORMAT_STL:
+    case TC_FORMAT_OBJ:
+    case TC_FORMAT_PLY:
+        return tetcast::make_surface_reader(path, sniffed).release();
     default:
         return tetcast::make_case_reader(path, sniffed).release();
     }

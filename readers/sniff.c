@@ -53,7 +53,7 @@ static tc_status found(tc_sniffed *out, tc_format format, const char *kind)
 }
 
 /* The value of type="…" in the VTKFile tag. */
-static tc_status sniff_vtk_xml(tc_sniffed *out, const char *path, const char *text, tc_error *err)
+static tc_status sniff_vtk_xml(tc_sniffed *out, const char *path, const char *text, bool surface, tc_error *err)
 {
     const char *tag = strstr(text, "<VTKFile");
     const char *end = strchr(tag, '>');
@@ -91,7 +91,10 @@ static tc_status sniff_vtk_xml(tc_sniffed *out, const char *path, const char *te
     if (!kind[0])
         return tc_fail(err, TC_E_FILE,
                        "%s is a VTK XML file that ends or breaks in its first tag; write or fetch it again", path);
-    if (strcmp(kind, "PolyData") == 0 || strcmp(kind, "PPolyData") == 0)
+    const bool poly = strcmp(kind, "PolyData") == 0 || strcmp(kind, "PPolyData") == 0;
+    if (poly && surface)
+        return found(out, TC_FORMAT_VTK_XML, kind);
+    if (poly)
         return tc_fail(err, TC_E_FILE, "%s holds a surface (VTK PolyData), not a volume: it has no 3-D cells to render",
                        path);
     return tc_fail(err, TC_E_FILE,
@@ -99,7 +102,7 @@ static tc_status sniff_vtk_xml(tc_sniffed *out, const char *path, const char *te
                    kind);
 }
 
-static tc_status sniff_vtk_legacy(tc_sniffed *out, const char *path, const char *text, tc_error *err)
+static tc_status sniff_vtk_legacy(tc_sniffed *out, const char *path, const char *text, bool surface, tc_error *err)
 {
     const char *at = strstr(text, "DATASET");
     char kind[64] = "";
@@ -109,7 +112,7 @@ static tc_status sniff_vtk_legacy(tc_sniffed *out, const char *path, const char 
         sscanf(at + 7, " %63s", kind);
     for (char *p = kind; *p; p++)
         *p = (char)toupper((unsigned char)*p);
-    if (strcmp(kind, "POLYDATA") == 0)
+    if (strcmp(kind, "POLYDATA") == 0 && !surface)
         return tc_fail(err, TC_E_FILE, "%s holds a surface (VTK POLYDATA), not a volume: it has no 3-D cells to render",
                        path);
     if (!at && !tc_sniff_has((const unsigned char *)text, strlen(text), "FIELD"))
@@ -216,7 +219,8 @@ static tc_status refuse_ensight_part(const char *path, const char *what, tc_erro
     return tc_fail(err, TC_E_FILE, "%s is %s of an EnSight case; give the .case file that names it", path, what);
 }
 
-tc_status tc_sniff_head(tc_sniffed *out, const char *path, const unsigned char *head, size_t n, tc_error *err)
+static tc_status sniff_head(tc_sniffed *out, const char *path, const unsigned char *head, size_t n, bool surface,
+                            tc_error *err)
 {
     memset(out, 0, sizeof *out);
     char text[TEXT_BYTES + 1];
@@ -226,9 +230,9 @@ tc_status tc_sniff_head(tc_sniffed *out, const char *path, const unsigned char *
     text[n_text] = 0;
 
     if (starts(head, n, "# vtk DataFile"))
-        return sniff_vtk_legacy(out, path, text, err);
+        return sniff_vtk_legacy(out, path, text, surface, err);
     if (strstr(text, "<VTKFile"))
-        return sniff_vtk_xml(out, path, text, err);
+        return sniff_vtk_xml(out, path, text, surface, err);
     if (starts(head, n, "\x89HDF\r\n\x1a\n"))
         return sniff_hdf5(out, path, head, n, err);
     if (starts(head, n, "CDF\001") || starts(head, n, "CDF\002") || starts(head, n, "CDF\005")) {
@@ -260,7 +264,15 @@ tc_status tc_sniff_head(tc_sniffed *out, const char *path, const unsigned char *
     }
     if (strstr(text, "node id ") && strstr(text, "element id "))
         return refuse_ensight_part(path, "the geometry", err);
+    const tc_status status = surface ? tc_sniff_triangles(out, path, head, n, err) : TC_OK;
+    if (status || out->format != TC_FORMAT_UNKNOWN)
+        return status;
     return tc_sniff_foreign(path, head, n, false, err);
+}
+
+tc_status tc_sniff_head(tc_sniffed *out, const char *path, const unsigned char *head, size_t n, tc_error *err)
+{
+    return sniff_head(out, path, head, n, false, err);
 }
 
 static tc_status sniff_case_folder(tc_sniffed *out, const char *path, const char *folder, tc_error *err)
@@ -331,7 +343,7 @@ static tc_status sniff_name(tc_sniffed *out, const char *path, const unsigned ch
         path, path);
 }
 
-tc_status tc_sniff_file(tc_sniffed *out, const char *path, tc_error *err)
+static tc_status sniff_file(tc_sniffed *out, const char *path, bool surface, tc_error *err)
 {
     memset(out, 0, sizeof *out);
     struct stat st;
@@ -357,9 +369,19 @@ tc_status tc_sniff_file(tc_sniffed *out, const char *path, tc_error *err)
     if (broken)
         status = tc_fail(err, TC_E_FILE, "%s cannot be read: %s", path, strerror(errno));
     else
-        status = tc_sniff_head(out, path, head, n, err);
+        status = sniff_head(out, path, head, n, surface, err);
     if (!status && out->format == TC_FORMAT_UNKNOWN)
         status = sniff_name(out, path, head, n, err);
     free(head);
     return status;
+}
+
+tc_status tc_sniff_file(tc_sniffed *out, const char *path, tc_error *err)
+{
+    return sniff_file(out, path, false, err);
+}
+
+tc_status tc_sniff_surface(tc_sniffed *out, const char *path, tc_error *err)
+{
+    return sniff_file(out, path, true, err);
 }

@@ -1,11 +1,13 @@
 // tetcast_read.cpp: the helper program: reads one time step of a file with VTK, splits every cell into tets and hands
-// arrays back (protocol: src/core/serve.h; request and result: readers/read.c).
+// arrays back, or the triangles and lines alone (protocol: src/core/serve.h; requests and results: readers/read.c,
+// readers/read_geometry.c).
 #include "cell_types.h"
 #include "core/serve.h"
 #include "fields.h"
 #include "gather.h"
 #include "kept.h"
 #include "load.h"
+#include "surface.h"
 #include "vtk_talk.h"
 
 #include <cinttypes>
@@ -236,16 +238,43 @@ void read(tc_serve *serve, Kept &kept, json_t *json)
     tc_serve_result(serve, result.get(), array.data(), array.size());
 }
 
+void read_surface(tc_serve *serve, json_t *json)
+{
+    ReadRequest request = parse_request(json);
+    request.surface = true;
+    request.field.any = false; // no array is called ""
+    VtkTalk talk(serve);
+    talk.progress("reading", -1);
+    Loaded loaded = load_file(request, talk);
+    Gathered data;
+    for (const auto &object : loaded.data)
+        gather_leaves(data, object);
+    for (const Leaf &leaf : data.leaf)
+        check_surface_cells(leaf, request.path);
+    count_cells(data, request.path);
+    Surface surface;
+    make_surface(surface, data, request.path);
+    loaded.notes.insert(loaded.notes.end(), surface.notes.begin(), surface.notes.end());
+    std::unique_ptr<json_t, void (*)(json_t *)> result(json_object(), [](json_t *j) { json_decref(j); });
+    json_object_set_new(result.get(), "notes", describe_texts(loaded.notes));
+    const tc_array array[] = {{"vertex", TC_F64, surface.vertex.size(), surface.vertex.data()},
+                              {"triangle", TC_I32, surface.triangle.size(), surface.triangle.data()},
+                              {"line", TC_I32, surface.line.size(), surface.line.data()}};
+    tc_serve_result(serve, result.get(), array, 3);
+}
+
 void handle(void *context, tc_serve *serve, json_t *request, const tc_array *, size_t)
 {
     const char *what = json_string_value(json_object_get(request, "do"));
     const char *path = json_string_value(json_object_get(request, "path"));
     const std::string name = path ? path : "the file";
     try {
-        if (!what || std::string(what) != "read")
-            tc_serve_error(serve, "tetcast-read only knows the request \"read\"");
-        else
+        if (what && std::string(what) == "read")
             read(serve, *static_cast<Kept *>(context), request);
+        else if (what && std::string(what) == "surface")
+            read_surface(serve, request);
+        else
+            tc_serve_error(serve, "tetcast-read only knows the requests \"read\" and \"surface\"");
     } catch (const Refusal &refusal) {
         tc_serve_error(serve, refusal.what());
     } catch (const std::bad_alloc &) {
