@@ -1,5 +1,5 @@
 /* read.c: tc_mesh_read: asks the helper program tetcast-read for one step of a file and makes a mesh of its arrays;
- * tc_mesh_read_values: takes the values alone where the mesh is there already.
+ * tc_mesh_read_values: takes the values alone where the mesh is there already; tc_field_read: makes a field of them.
  *
  * Request: {"do": "read", "path", "field"?, "association": 0..2, "time"?, "step"?, "refine", "all_ranges", "keep",
  * "mesh"?}: keep: more requests follow, so what tells whether the mesh is the same may be kept; mesh: leave vertex, tet
@@ -14,6 +14,7 @@
 
 #include "core/memory.h"
 #include "core/worker.h"
+#include "mesh/field.h"
 #include "mesh/mesh.h"
 
 #include <inttypes.h>
@@ -410,6 +411,49 @@ tc_status tc_mesh_read_values(tc_mesh **moved, tc_mesh *mesh, const char *path, 
     status = ask(&reply, &mesh->reader, path, options, true, 0, log, err);
     if (!status)
         status = take_moved(moved, mesh, path, &reply, start, err);
+    tc_reply_finish(&reply);
+    return status;
+}
+
+/* The values of a reply as a field of the mesh, which stays as it is. */
+static tc_status make_field(tc_field **out, const tc_mesh *mesh, const char *path, const tc_reply *reply, tc_error *err)
+{
+    const double *value;
+    tc_association association;
+    if (!json_is_true(json_object_get(reply->json, "same_mesh")))
+        return tc_fail(err, TC_E_MOVED,
+                       "%s: the points or cells of step %d are not those of the mesh that is to have a field of it; take "
+                       "the mesh and the field of one step",
+                       path, (int)json_integer_value(json_object_get(reply->json, "step")));
+    tc_status status = find_scalar(&value, &association, reply, mesh->n_vertex_source, mesh->n_tet_source, err);
+    if (status)
+        return status;
+    if (!value)
+        return tc_fail(err, TC_E_FILE, "%s has no array to make a field of; write point or cell data into it", path);
+    return tc_field_create(out, mesh, value, association, text_of(reply->json, "field"), err);
+}
+
+tc_status tc_field_read(tc_field **out, tc_mesh *mesh, const char *path, const tc_read_options *options,
+                        const tc_log *log, tc_error *err)
+{
+    static const tc_read_options defaults = {0};
+    if (!out || !mesh || !path)
+        return tc_fail(err, TC_E_ARG, "tc_field_read: out, mesh or path is NULL");
+    *out = NULL;
+    if (!mesh->source)
+        return tc_fail(err, TC_E_ARG,
+                       "the mesh that is to have a field of %s was not read from a file; give the values to tc_field_create",
+                       path);
+    if (!mesh->prepared)
+        return tc_fail(err, TC_E_ARG, "a field is of a mesh in its order: call tc_mesh_prepare before %s is read", path);
+    if (!options)
+        options = &defaults;
+    tc_reply reply = {0};
+    tc_status status = check_options(options, err);
+    if (!status)
+        status = ask(&reply, &mesh->reader, path, options, true, mesh->source_hash, log, err);
+    if (!status)
+        status = make_field(out, mesh, path, &reply, err);
     tc_reply_finish(&reply);
     return status;
 }

@@ -8,6 +8,7 @@
 
 #include "cache/format.h"
 #include "core/file.h"
+#include "mesh/field.h"
 #include "read_files.h"
 
 #include <fcntl.h>
@@ -167,6 +168,28 @@ static void a_mesh_comes_back_as_it_was_saved(void **state)
     for (size_t v = 0; v < b->n_vertex; v++)
         assert_true(b->scalar[v] == 9 - a->scalar[v] / 10);
     tc_mesh_destroy(&a);
+    tc_mesh_destroy(&b);
+}
+
+/* The reader is not there yet, and the order of the file's points is in the cache alone. */
+static void a_mesh_that_comes_back_has_no_fields(void **state)
+{
+    (void)state;
+    static const tc_read_options cold = {.field = "cold"};
+    const tc_cache_key key = key_of(mesh_path, &heat, &peel);
+    tc_mesh *a = read_and_save(&key), *b = NULL;
+    tc_field *field = NULL;
+    tc_error err = {0};
+    tc_mesh_destroy(&a);
+    assert_int_equal(load(&b, &key, &err), TC_OK);
+    if (tc_field_read(&field, b, mesh_path, &cold, NULL, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    assert_string_equal(b->field_name, "heat");
+    assert_string_equal(field->name, "cold");
+    assert_int_equal(field->n, 8);
+    for (size_t i = 0; i < field->n; i++)
+        assert_true(field->value[i] == 9 - b->scalar[i]);
+    tc_field_destroy(&field);
     tc_mesh_destroy(&b);
 }
 
@@ -536,6 +559,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_mesh_comes_back_as_it_was_saved, make_folder, drop_folder),
+        cmocka_unit_test_setup_teardown(a_mesh_that_comes_back_has_no_fields, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(a_damaged_byte_anywhere_is_found, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(another_version_or_key_is_not_taken, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(a_vertex_that_is_not_there_is_not_believed, make_folder, drop_folder),

@@ -1,10 +1,11 @@
-/* Another step or field on a mesh that was read (tc_mesh_read_values). */
+/* Another step or field on a mesh that was read (tc_mesh_read_values), and fields beside it (tc_field_read). */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <setjmp.h>
 #include <cmocka.h>
 
+#include "mesh/field.h"
 #include "read_files.h"
 
 #include <math.h>
@@ -263,6 +264,82 @@ static void a_mesh_that_was_not_read_takes_a_file(void **state)
     assert_int_equal(tc_mesh_create(&mesh, &arrays, NULL), TC_OK);
     assert_int_equal(tc_mesh_read_values(NULL, mesh, f->step[0], NULL, NULL, NULL), TC_E_ARG);
     assert_int_equal(tc_mesh_read_values(NULL, NULL, f->step[0], NULL, NULL, NULL), TC_E_ARG);
+    tc_field *field = NULL;
+    assert_int_equal(tc_field_read(&field, mesh, f->step[0], NULL, NULL, NULL), TC_E_ARG);
+    tc_mesh_destroy(&mesh);
+}
+
+/* A mesh with values of its own, and the fields that a fresh mesh would have as its values. */
+static void fields_are_not_the_values_of_the_step_read_anew(void **state)
+{
+    const files *f = *state;
+    static const struct {
+        const char *field;
+        int step;
+    } next[] = {{"C", 0}, {"P", 1}, {"C", 2}, {NULL, 1}};
+    for (int keep = 0; keep < 2; keep++) {
+        tc_mesh *mesh = read_prepared(f->list, step_of("P", 0), keep);
+        tc_mesh *before = read_prepared(f->list, step_of("P", 0), false);
+        const uint64_t serial = mesh->serial, values = mesh->scalar_serial;
+        const tc_source *source = mesh->source;
+        for (size_t i = 0; i < sizeof next / sizeof *next; i++) {
+            const tc_read_options options = step_of(next[i].field, next[i].step);
+            tc_field *field = NULL;
+            tc_error err = {0};
+            if (tc_field_read(&field, mesh, f->list, &options, NULL, &err) != TC_OK)
+                fail_msg("%s", err.text);
+            tc_mesh *fresh = read_prepared(f->list, options, false);
+            assert_int_equal(field->association, fresh->association);
+            assert_int_equal(field->n, fresh->association == TC_CELL_DATA ? fresh->n_tet : fresh->n_vertex);
+            assert_memory_equal(field->value, fresh->scalar, field->n * sizeof *field->value);
+            assert_memory_equal(field->range, fresh->report.scalar_range, sizeof field->range);
+            assert_string_equal(field->name, fresh->field_name);
+            tc_mesh_destroy(&fresh);
+            tc_field_destroy(&field);
+        }
+        assert_true(mesh->reader != NULL); /* the next one is sooner there */
+        assert_true(mesh->serial == serial && mesh->scalar_serial == values && mesh->source == source);
+        must_be_alike(mesh, before);
+        tc_mesh_destroy(&before);
+        tc_mesh_destroy(&mesh);
+    }
+}
+
+static void a_field_is_taken_from_where_it_does_not_fit(void **state)
+{
+    const files *f = *state;
+    const tc_read_options last = step_of("P", 3), none = step_of("nothing", 0), good = step_of("C", 0);
+    tc_mesh *mesh = read_path(f->list, &(tc_read_options){.field = "P", .has_step = true});
+    tc_field *field = (tc_field *)&field;
+    tc_error err = {0};
+    assert_int_equal(tc_field_read(&field, mesh, f->list, &good, NULL, &err), TC_E_ARG);
+    assert_null(field);
+    assert_non_null(strstr(err.text, "tc_mesh_prepare"));
+    prepared(mesh);
+    assert_int_equal(tc_field_read(&field, mesh, f->list, &last, NULL, &err), TC_E_MOVED);
+    assert_non_null(strstr(err.text, "step 3"));
+    assert_int_equal(tc_field_read(&field, mesh, f->list, &none, NULL, &err), TC_E_FILE);
+    assert_non_null(strstr(err.text, "nothing"));
+    assert_null(field);
+    assert_int_equal(tc_field_read(&field, mesh, f->list, &good, NULL, &err), TC_OK);
+    tc_field_destroy(&field);
+    tc_mesh_destroy(&mesh);
+}
+
+static void a_file_without_arrays_gives_a_field(void **state)
+{
+    (void)state;
+    static grid g;
+    make_grid(&g, 0);
+    const char *path = scratch("bare.vtu");
+    write_vtu(path, &g, "", "");
+    tc_mesh *mesh = read_prepared(path, (tc_read_options){0}, true);
+    tc_field *field = NULL;
+    tc_error err = {0};
+    assert_int_equal(tc_field_read(&field, mesh, path, NULL, NULL, &err), TC_E_FILE);
+    assert_non_null(strstr(err.text, "no array"));
+    assert_null(field);
+    unlink(path);
     tc_mesh_destroy(&mesh);
 }
 
@@ -279,6 +356,9 @@ int main(void)
         cmocka_unit_test(a_reader_that_was_put_down_is_asked_again),
 #endif
         cmocka_unit_test(a_mesh_that_was_not_read_takes_a_file),
+        cmocka_unit_test(fields_are_not_the_values_of_the_step_read_anew),
+        cmocka_unit_test(a_field_is_taken_from_where_it_does_not_fit),
+        cmocka_unit_test(a_file_without_arrays_gives_a_field),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
