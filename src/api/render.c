@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "gpu/compute.h"
 #include "gpu/pingpong.h"
+#include "scene/look.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -121,6 +122,9 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
                            "the colour of missing values, %g %g %g with attenuation %g, is no colour; use 0 to 1 for "
                            "each of r, g and b, and a finite attenuation of 0 or more",
                            nan[0], nan[1], nan[2], nan[3]);
+    char why[sizeof err->text];
+    if (options->look && tc_look_wrong(why, sizeof why, options->look, mesh))
+        return tc_fail(err, TC_E_ARG, "%s", why);
     *unit = options->unit_distance > 0 ? options->unit_distance : tc_default_unit_distance(mesh);
     return tc_rays_from_camera(rays, camera, options->width, options->height, err);
 }
