@@ -72,6 +72,7 @@ tc_status tc_effects_choose(tc_effects *out, const tc_effect_scene *scene, tc_er
         size_t n = strlen(out->defines);
         if (row->define)
             row->define(out->defines + n, sizeof out->defines - n, scene);
+        out->rounds += row->rounds ? row->rounds(scene) : 0;
         out->n++;
     }
     return check(out, err);

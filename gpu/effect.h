@@ -7,7 +7,7 @@
 
 #include "gpu/job.h"
 
-enum { TC_EFFECTS_MOST = 32, TC_EFFECT_WHY = 160 };
+enum { TC_EFFECTS_MOST = 32, TC_EFFECT_WHY = 160, TC_ISO_MOST = 64 };
 
 /* What needs of a row are. */
 enum {
@@ -16,6 +16,7 @@ enum {
     TC_NEEDS_STATE_32F = 4, /* what rays carry are numbers, not colours */
     TC_NEEDS_POINTS = 8,    /* values of points: cell data will not do */
     TC_NEEDS_SIGNS = 16,    /* the stepper whose walk knows its face's vertices and weights */
+    TC_NEEDS_NO_FUNCTION = 32, /* none is looked at: none is uploaded */
 };
 
 /* Units of what effects fetch (fetch.glsl): images where the renderer is software, which have few; a row of each line at a
@@ -52,6 +53,8 @@ typedef struct tc_effect {
     void (*define)(char *out, size_t capacity, const tc_effect_scene *scene);
     /* The function that stands for the picture's; NULL: itself. In place, knot by knot. */
     void (*knot)(tc_knot *knot, const tc_effect_scene *scene);
+    /* Rounds of march.glsl's loop that a step may take besides; NULL: none. */
+    int (*rounds)(const tc_effect_scene *scene);
     /* Packs and uploads what is not there yet. *bytes gets what it holds on the GPU. state: zeros at first, of state_bytes. */
     size_t state_bytes;
     tc_status (*update)(void *state, size_t *bytes, const tc_effect_scene *scene, const tc_gl *gl, tc_error *err);
@@ -73,6 +76,7 @@ typedef struct tc_effects {
     char why[TC_EFFECTS_MOST][TC_EFFECT_WHY];
     tc_effect_scene scene;
     unsigned needs;
+    int rounds;
     char shaders[512], defines[512];
     const char *integrator;
     double bytes[TC_EFFECTS_MOST];

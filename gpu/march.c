@@ -107,7 +107,8 @@ void tc_march_bind(const tc_job *job, GLuint program)
     tc_job_bind_mesh(job, program);
     if (job->planes)
         bind_planes(job, program);
-    bind_transfer(job, program);
+    if (!job->effects || !(job->effects->needs & TC_NEEDS_NO_FUNCTION))
+        bind_transfer(job, program);
     tc_pass_int(gl, program, "steps_per_pass", job->steps_per_pass);
     tc_pass_float(gl, program, "length_unit", job->length_unit);
     tc_pass_float(gl, program, "transmittance_stop", job->transmittance_stop);

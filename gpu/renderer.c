@@ -204,6 +204,7 @@ static void choose_passes(tc_job *job, const tc_render_options *options)
         double rounds = pieces           ? (double)job->n_piece + ROUNDS_BESIDE
                         : job->split > 0 ? SPLIT_MOST + ROUNDS_BESIDE
                                          : ROUNDS_PLAIN;
+        rounds += job->effects->rounds;
         int most = (int)(SOFTWARE_ROUNDS / rounds);
         job->steps_per_pass = job->steps_per_pass < most ? job->steps_per_pass : most > 1 ? most : 1;
     }
@@ -364,7 +365,9 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
             .pieces_only = (effects.needs & TC_NEEDS_PIECES) != 0,
             .threads = r->threads,
         };
-        status = tc_transfer_gpu_ensure(&r->transfer, &job, &request, gl, stats, err);
+        job.integrator = TC_INTEGRATOR_EXACT;
+        if (!(effects.needs & TC_NEEDS_NO_FUNCTION))
+            status = tc_transfer_gpu_ensure(&r->transfer, &job, &request, gl, stats, err);
     }
     if (status != TC_OK)
         return status;

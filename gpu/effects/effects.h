@@ -4,6 +4,7 @@
 
 #include "gpu/effect.h"
 
-extern const tc_effect tc_effect_density_emitter, tc_effect_clip;
+extern const tc_effect tc_effect_density_emitter, tc_effect_surfaces;
+extern const tc_effect tc_effect_clip, tc_effect_iso;
 
 #endif

@@ -3,6 +3,8 @@
 
 const tc_effect *const tc_effect_table[] = {
     &tc_effect_density_emitter,
+    &tc_effect_surfaces,
     &tc_effect_clip,
+    &tc_effect_iso,
     NULL,
 };

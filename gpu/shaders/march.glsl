@@ -2,7 +2,7 @@
 // Weiler et al. 2003, 3.4.
 
 #include "stepper.glsl"
-#include "integrator.glsl" //@then march_declare
+#include "integrator.glsl"
 
 uniform int steps_per_pass;
 uniform float length_unit;         // half diagonals → unit distances
@@ -12,7 +12,7 @@ uniform vec4 nan_color; // of cells with a value that is not finite: r, g, b, at
 vec4 march_nan_color = vec4(0.0);
 #endif
 const int MARCH_ENDED = -2, MARCH_OPAQUE = -4; // in place of a cell: the ray ends within the mesh; for it is opaque
-float march_unit = 0.0, march_least = 0.0; // length_unit, transmittance_stop
+float march_unit = 0.0, march_least = 0.0; // length_unit, transmittance_stop //@then march_declare
 #ifdef AUDIT
 struct Audit {
     float length, real;

@@ -1,0 +1,50 @@
+// integrate_none.glsl: nothing between surfaces.
+#include "integrate_depth.glsl"
+
+struct Integral {
+    Gathered sum;
+};
+
+Integral integral_begin(vec4 color, float s)
+{
+    return Integral(gathered_begin(color));
+}
+
+void integral_enter(inout Integral i, float s)
+{
+}
+
+void integral_add(inout Integral i, float s, float l)
+{
+}
+
+bool integral_round(inout Integral i)
+{
+    return false;
+}
+
+bool integral_waits(Integral i)
+{
+    return false;
+}
+
+void integral_stop(inout Integral i, float s)
+{
+}
+
+#ifdef NAN_COLOR
+void integral_add_constant(inout Integral i, vec4 color, float l)
+{
+    gathered_add(i.sum, color.rgb, color.a * l);
+}
+#endif
+
+float integral_transmittance(Integral i)
+{
+    return i.sum.transmittance;
+}
+
+vec4 integral_end(Integral i)
+{
+    return gathered_end(i.sum);
+}
