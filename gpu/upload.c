@@ -26,7 +26,7 @@ static tc_status upload_poisoned(const tc_texture_buffer *b, const tc_gl *gl, co
     return TC_OK;
 }
 
-static tc_status upload_buffer(tc_texture_buffer *out, const tc_gl *gl, const void *data, size_t n_texel,
+tc_status tc_texture_buffer_upload(tc_texture_buffer *out, const tc_gl *gl, const void *data, size_t n_texel,
                                size_t texel_bytes, GLenum format, const char *what, tc_error *err)
 {
     memset(out, 0, sizeof *out);
@@ -47,7 +47,7 @@ static tc_status upload_buffer(tc_texture_buffer *out, const tc_gl *gl, const vo
     return tc_gl_check(gl, what, err);
 }
 
-static void finish_buffer(tc_texture_buffer *b, const tc_gl *gl)
+void tc_texture_buffer_finish(tc_texture_buffer *b, const tc_gl *gl)
 {
     if (b->texture)
         gl->DeleteTextures(1, &b->texture);
@@ -59,16 +59,16 @@ static void finish_buffer(tc_texture_buffer *b, const tc_gl *gl)
 static tc_status upload_planes(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack_planes *planes, tc_error *err)
 {
     size_t n = planes->n_cell;
-    tc_status status = upload_buffer(&out->planes_vertices, gl, planes->vertex, 4 * n, 16, GL_RGBA32F,
+    tc_status status = tc_texture_buffer_upload(&out->planes_vertices, gl, planes->vertex, 4 * n, 16, GL_RGBA32F,
                                      "uploading the cells' vertices", err);
     if (status == TC_OK)
-        status = upload_buffer(&out->planes_normals, gl, planes->normal, 4 * n, 16, GL_RGBA32F,
+        status = tc_texture_buffer_upload(&out->planes_normals, gl, planes->normal, 4 * n, 16, GL_RGBA32F,
                                "uploading the faces' normals", err);
     if (status == TC_OK)
-        status = upload_buffer(&out->planes_neighbours, gl, planes->neighbour, 4 * n, 4, GL_R32I,
+        status = tc_texture_buffer_upload(&out->planes_neighbours, gl, planes->neighbour, 4 * n, 4, GL_R32I,
                                "uploading the cells' neighbours", err);
     if (status == TC_OK)
-        status = upload_buffer(&out->planes_scalars, gl, planes->scalar, n, 16, GL_RGBA32F,
+        status = tc_texture_buffer_upload(&out->planes_scalars, gl, planes->scalar, n, 16, GL_RGBA32F,
                                "uploading the cells' gradients", err);
     return status;
 }
@@ -84,15 +84,15 @@ tc_status tc_gpu_mesh_upload(tc_gpu_mesh *out, const tc_gl *gl, const tc_pack *p
     out->n_face = pack->n_face;
     tc_status status =
         planes ? upload_planes(out, gl, planes, err)
-               : upload_buffer(&out->cells, gl, pack->cell, pack->n_cell, 16, GL_RGBA32I, "uploading the cells", err);
+               : tc_texture_buffer_upload(&out->cells, gl, pack->cell, pack->n_cell, 16, GL_RGBA32I, "uploading the cells", err);
     if (status == TC_OK)
-        status = upload_buffer(&out->vertices, gl, pack->vertex, pack->n_vertex, 16, GL_RGBA32F,
+        status = tc_texture_buffer_upload(&out->vertices, gl, pack->vertex, pack->n_vertex, 16, GL_RGBA32F,
                                "uploading the vertices", err);
     if (status == TC_OK)
-        status = upload_buffer(&out->faces, gl, pack->face, pack->n_face, 16, GL_RGBA32I,
+        status = tc_texture_buffer_upload(&out->faces, gl, pack->face, pack->n_face, 16, GL_RGBA32I,
                                "uploading the boundary faces", err);
     if (status == TC_OK && pack->cell_scalar)
-        status = upload_buffer(&out->cell_scalar, gl, pack->cell_scalar, pack->n_real, 4, GL_R32F,
+        status = tc_texture_buffer_upload(&out->cell_scalar, gl, pack->cell_scalar, pack->n_real, 4, GL_R32F,
                                "uploading the cell data", err);
     if (status != TC_OK)
         tc_gpu_mesh_finish(out, gl);
@@ -121,9 +121,9 @@ tc_status tc_gpu_mesh_values(tc_gpu_mesh *mesh, size_t *bytes, const tc_gl *gl, 
     if (had_cells && pack->cell_scalar)
         replace_buffer(&mesh->cell_scalar, gl, pack->cell_scalar);
     else if (had_cells)
-        finish_buffer(&mesh->cell_scalar, gl);
+        tc_texture_buffer_finish(&mesh->cell_scalar, gl);
     else if (pack->cell_scalar)
-        status = upload_buffer(&mesh->cell_scalar, gl, pack->cell_scalar, pack->n_real, 4, GL_R32F,
+        status = tc_texture_buffer_upload(&mesh->cell_scalar, gl, pack->cell_scalar, pack->n_real, 4, GL_R32F,
                                "uploading the cell data", err);
     *bytes += mesh->cell_scalar.bytes;
     if (status == TC_OK)
@@ -140,14 +140,14 @@ size_t tc_gpu_mesh_bytes(const tc_gpu_mesh *m)
 
 void tc_gpu_mesh_finish(tc_gpu_mesh *mesh, const tc_gl *gl)
 {
-    finish_buffer(&mesh->cells, gl);
-    finish_buffer(&mesh->vertices, gl);
-    finish_buffer(&mesh->faces, gl);
-    finish_buffer(&mesh->cell_scalar, gl);
-    finish_buffer(&mesh->planes_vertices, gl);
-    finish_buffer(&mesh->planes_normals, gl);
-    finish_buffer(&mesh->planes_neighbours, gl);
-    finish_buffer(&mesh->planes_scalars, gl);
+    tc_texture_buffer_finish(&mesh->cells, gl);
+    tc_texture_buffer_finish(&mesh->vertices, gl);
+    tc_texture_buffer_finish(&mesh->faces, gl);
+    tc_texture_buffer_finish(&mesh->cell_scalar, gl);
+    tc_texture_buffer_finish(&mesh->planes_vertices, gl);
+    tc_texture_buffer_finish(&mesh->planes_normals, gl);
+    tc_texture_buffer_finish(&mesh->planes_neighbours, gl);
+    tc_texture_buffer_finish(&mesh->planes_scalars, gl);
 }
 
 static GLuint linear_texture(const tc_gl *gl, GLenum target)
@@ -199,7 +199,7 @@ tc_status tc_gpu_running_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_
         memcpy(nodes + 8 * i + 4, running->cumulative + 4 * i, 4 * sizeof *nodes);
     }
     tc_status status =
-        upload_buffer(&out->nodes, gl, nodes, 2 * n, 16, GL_RGBA32F, "uploading the running integrals", err);
+        tc_texture_buffer_upload(&out->nodes, gl, nodes, 2 * n, 16, GL_RGBA32F, "uploading the running integrals", err);
     out->bytes = out->nodes.bytes;
     free(nodes);
     if (status != TC_OK)
@@ -209,7 +209,7 @@ tc_status tc_gpu_running_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_
 
 tc_status tc_gpu_means_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_means *means, tc_error *err)
 {
-    tc_status status = upload_buffer(&out->nodes, gl, means->cell, 3 * (size_t)means->n + 2 * (size_t)means->n_step, 16,
+    tc_status status = tc_texture_buffer_upload(&out->nodes, gl, means->cell, 3 * (size_t)means->n + 2 * (size_t)means->n_step, 16,
                                      GL_RGBA32F, "uploading a transfer function's means", err);
     out->bytes += out->nodes.bytes;
     if (status != TC_OK)
@@ -220,7 +220,7 @@ tc_status tc_gpu_means_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_me
 tc_status tc_gpu_pieces_upload(tc_gpu_transfer *out, const tc_gl *gl, const tc_pieces *pieces, tc_error *err)
 {
     _Static_assert(sizeof(tc_piece_end) == 48, "three texels an end");
-    tc_status status = upload_buffer(&out->pieces, gl, pieces->end, 3 * (pieces->n + 1), 16, GL_RGBA32F,
+    tc_status status = tc_texture_buffer_upload(&out->pieces, gl, pieces->end, 3 * (pieces->n + 1), 16, GL_RGBA32F,
                                      "uploading the pieces of a transfer function", err);
     out->bytes += out->pieces.bytes;
     if (status == TC_OK) {
@@ -238,9 +238,9 @@ void tc_gpu_transfer_finish(tc_gpu_transfer *transfer, const tc_gl *gl)
 {
     if (transfer->table)
         gl->DeleteTextures(1, &transfer->table);
-    finish_buffer(&transfer->nodes, gl);
+    tc_texture_buffer_finish(&transfer->nodes, gl);
     if (transfer->piece_floats)
         gl->DeleteTextures(1, &transfer->piece_floats);
-    finish_buffer(&transfer->pieces, gl);
+    tc_texture_buffer_finish(&transfer->pieces, gl);
     memset(transfer, 0, sizeof *transfer);
 }
