@@ -188,8 +188,11 @@ static tc_status reference_render(tc_image *image, tc_render_stats *stats, tc_re
     double start = tc_now_ms();
     tc_reference_set_nan_color(r->reference, frame->options->has_nan_color ? frame->options->nan_color : NULL);
     tc_reference_set_samples(r->reference, frame->options->samples);
-    status = tc_reference_render(image, r->reference, frame->transfer, frame->unit_distance, frame->rays, r->threads,
-                                 frame->log, err);
+    status = tc_reference_set_look(r->reference, frame->options->look, err);
+    if (status == TC_OK)
+        status = tc_reference_render(image, r->reference, frame->transfer, frame->unit_distance, frame->rays,
+                                     r->threads, frame->log, err);
+    tc_reference_set_look(r->reference, NULL, NULL); /* it is the caller's, who may free it */
     stats->ms_frame = stats->ms_march = tc_now_ms() - start;
     stats->rays_lost = 0; /* every cell is asked for every ray: there is no walk to lose */
     snprintf(stats->driver, sizeof stats->driver, "reference");

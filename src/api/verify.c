@@ -24,9 +24,11 @@ tc_status tc_verify_image(tc_verify_result *out, tc_image **errors, const tc_ima
     if (status == TC_OK) {
         tc_reference_set_nan_color(reference, options->has_nan_color ? options->nan_color : NULL);
         tc_reference_set_samples(reference, options->samples);
+        status = tc_reference_set_look(reference, options->look, err);
+    }
+    if (status == TC_OK)
         status =
             tc_reference_verify(out, errors ? *errors : NULL, image, n, seed, reference, tf, unit, &rays, 0, log, err);
-    }
     out->rays_lost = -1; /* a picture does not tell */
     tc_reference_destroy(&reference);
     if (status != TC_OK && errors)

@@ -14,7 +14,7 @@ enum { SIDES = 8, DATA = SIDES, APART = DATA + 2, TURNS = APART + 2, ROUNDED = T
 /* Move k of a line; *data is what to add to every scalar.
  *   SIDES    the ray goes by SHIFT of the diagonal to the four sides, along u and v, and to the four corners between
  *            them: a ray at a corner of the hull may stay in the mesh, or out of it, on all four sides
- *   DATA     the data move by SHIFT of their range
+ *   DATA     the data move by SHIFT of their range, and those of a field for colour by SHIFT of theirs
  *   APART    overlapping parts of the mesh move against each other along the ray by up to SHIFT of the diagonal
  *   TURNS    a ray that lies in a face or runs through an edge or a vertex is on no particular side of it; the trace
  *            takes one, by a move of no length along u and v, and is asked for the others by turning these
@@ -31,6 +31,7 @@ static tc_line move_line(double *data, const tc_reference *reference, double ran
         tc_vec_mul_add(moved.base, moved.base, by * side[k][1], line->v);
     } else if (k < APART) {
         *data = k % 2 ? -SHIFT * range : SHIFT * range;
+        moved.data = k % 2 ? -SHIFT : SHIFT;
     } else if (k < TURNS) {
         moved.unsure = k % 2 ? -by : by;
     } else if (k < ROUNDED) {

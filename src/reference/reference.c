@@ -156,8 +156,11 @@ void tc_reference_destroy(tc_reference **reference)
     tc_reference *r = *reference;
     if (!r)
         return;
-    for (int i = 0; r->scratch && i < TC_REFERENCE_WORKERS; i++)
+    tc_reference_set_look(r, NULL, NULL);
+    for (int i = 0; r->scratch && i < TC_REFERENCE_WORKERS; i++) {
         free(r->scratch[i].hit);
+        free(r->scratch[i].meeting);
+    }
     free(r->scratch);
     free(r->vertex);
     free(r->tet);

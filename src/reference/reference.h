@@ -29,6 +29,20 @@ void tc_reference_destroy(tc_reference **reference);
  * distance, copied; NULL: they are transparent again. Not while rays are traced. */
 void tc_reference_set_nan_color(tc_reference *reference, const double *color);
 
+/* The picture has this look from now on, until it is set anew (tetcast_look.h); NULL or nothing asked for: the plain
+ * density emitter, to the last bit. The look and all that it points to are borrowed for so long; fields are in the mesh's
+ * order. Gradients and selected cells are found here: after tc_mesh_set_scalar set it again. Not while rays are traced.
+ *   isosurfaces  where a ray runs through an edge or a vertex the values of one place differ by rounding from cell to cell:
+ *                the cell before decides, so that a surface there is neither missed nor met twice
+ *   a field for colour that is not finite in a cell makes the cell one whose values are not finite
+ *   geometry     triangles as they are: neither planes nor box nor selection cut them, only the camera's near and far do;
+ *                lines are not drawn. With MAXIMUM, MINIMUM and AVERAGE it is all in front of the picture
+ *   nan color    lit by nothing; 0 with ABSORPTION, 1 with XRAY; not seen with SURFACES, MAXIMUM, MINIMUM, AVERAGE
+ * Errors: TC_E_ARG (a field of another size, a colour field without function, isosurfaces of cell data, geometry with
+ * vertices that are missing or not finite), TC_E_MEMORY; the look is plain then. Cost: O(n), with gradients of cell data
+ * O(n log n); 24 B a tet or vertex for gradients, 1 B a tet for a selection, 100 B a triangle. */
+tc_status tc_reference_set_look(tc_reference *reference, const tc_look *look, tc_error *err);
+
 typedef struct tc_reference_ray {
     double rgba[4]; /* premultiplied */
     double length;  /* of all real segments that are seen */

@@ -10,6 +10,7 @@
 #include "reference/segment.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Abscissas and weights on [0, 1]: roots of the shifted Legendre polynomials, symmetric about 1/2. */
 static const double X4[4] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
@@ -147,6 +148,97 @@ void tc_segment_add_constant(tc_segment_sum *out, const double color[4], double 
 {
     if (l > 0)
         add_piece(out, color, color, l);
+}
+
+/* ------------------------------------------------------------------------------------- other models, and two functions
+ */
+
+/* A function along a segment, at the piece of it that comes next. */
+typedef struct runner {
+    const tc_transfer *tf;
+    double s0, s1;
+    ptrdiff_t piece;
+} runner;
+
+static runner run(const tc_transfer *tf, double s0, double s1)
+{
+    return (runner){tf, s0, s1, (ptrdiff_t)knots_below(tf, s0, s1 >= s0) - 1};
+}
+
+/* Where, from 0 to 1, the piece ends. */
+static double piece_end(const runner *r)
+{
+    bool up = r->s1 > r->s0;
+    ptrdiff_t next = up ? r->piece + 1 : r->piece;
+    if (r->s0 == r->s1 || next < 0 || next >= (ptrdiff_t)r->tf->n)
+        return 1;
+    double at = r->tf->knot[next].s;
+    if (up ? at >= r->s1 : at <= r->s1)
+        return 1;
+    return fmin(fmax((0.5 * at - 0.5 * r->s0) / (0.5 * r->s1 - 0.5 * r->s0), 0), 1);
+}
+
+static void value_on(double out[4], const runner *r, double x)
+{
+    piece_value(out, r->tf, r->piece, x < 0.5 ? r->s0 + x * (r->s1 - r->s0) : r->s1 + (1 - x) * (r->s0 - r->s1));
+}
+
+/* What is emitted per length, a product of two linear functions, and not absorbed. */
+static void add_emission(tc_segment_sum *out, const double c0[4], const double c1[4], double l)
+{
+    for (int i = 0; i < 3; i++)
+        out->rgba[i] +=
+            out->clear * l * (c0[i] * c0[3] / 3 + c0[i] * c1[3] / 6 + c1[i] * c0[3] / 6 + c1[i] * c1[3] / 3);
+}
+
+static void add_matter_piece(tc_segment_sum *out, const tc_matter *matter, double c0[4], double c1[4], double l)
+{
+    for (int i = 0; i < 3; i++) {
+        c0[i] = matter->gain[i] * c0[i] + matter->glow[i];
+        c1[i] = matter->gain[i] * c1[i] + matter->glow[i];
+    }
+    if (matter->emission)
+        add_emission(out, c0, c1, l);
+    else
+        add_piece(out, c0, c1, l);
+}
+
+void tc_segment_add_matter(tc_segment_sum *out, const tc_matter *matter, double s0, double s1, double q0, double q1,
+                           double l)
+{
+    if (!(l > 0) || matter->opacity->n == 0)
+        return;
+    runner a = run(matter->opacity, s0, s1), c = matter->color ? run(matter->color, q0, q1) : a;
+    for (double x = 0; x < 1;) {
+        double to_a = piece_end(&a), to_c = piece_end(&c), end = fmin(to_a, to_c);
+        if (end > x) {
+            double c0[4], c1[4], a0[4], a1[4];
+            value_on(c0, &c, x), value_on(c1, &c, end);
+            value_on(a0, &a, x), value_on(a1, &a, end);
+            c0[3] = a0[3], c1[3] = a1[3];
+            add_matter_piece(out, matter, c0, c1, (end - x) * l);
+            x = end;
+        }
+        if (to_a <= x)
+            a.piece += a.s1 > a.s0 ? 1 : -1;
+        if (to_c <= x)
+            c.piece += c.s1 > c.s0 ? 1 : -1;
+    }
+}
+
+void tc_segment_add_matter_constant(tc_segment_sum *out, const tc_matter *matter, const double color[4], double l)
+{
+    double c0[4], c1[4];
+    if (!(l > 0))
+        return;
+    memcpy(c0, color, sizeof c0);
+    memcpy(c1, color, sizeof c1);
+    add_matter_piece(out, matter, c0, c1, l);
+}
+
+void tc_segment_value(double out[4], const tc_transfer *tf, double s)
+{
+    piece_value(out, tf, (ptrdiff_t)knots_below(tf, s, true) - 1, s);
 }
 
 void tc_reference_segment(double out[4], const tc_transfer *tf, double s0, double s1, double l)

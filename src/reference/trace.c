@@ -11,11 +11,13 @@
 
 #include "core/memory.h"
 #include "core/vec.h"
+#include "reference/look.h"
 #include "reference/segment.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A ray through a point of the box comes this near its centre (the boxes are padded). */
 static const double REACH = 1.00001;
@@ -34,7 +36,7 @@ void tc_line_init(tc_line *out, const tc_reference *reference, const double orig
     tc_vec_mul_add(out->base, o, t, out->d);
     out->t_min = range[0] * reference->scale - t;
     out->t_max = range[1] * reference->scale - t;
-    out->unsure = out->rounding = 0;
+    out->unsure = out->rounding = out->data = 0;
     out->draw = 0;
     out->whole = false;
 
@@ -63,12 +65,12 @@ static double noise(uint32_t draw, uint32_t id, uint32_t axis)
 }
 
 /* A vertex as seen from the line's base, the same for every tet. */
-static void place(double q[3], const tc_reference *reference, const tc_line *line, int32_t id)
+static void place(double q[3], const double *vertex, const tc_line *line, uint32_t id)
 {
-    tc_vec_sub(q, &reference->vertex[3 * (size_t)id], line->base);
+    tc_vec_sub(q, vertex, line->base);
     if (line->rounding > 0)
         for (uint32_t k = 0; k < 3; k++)
-            q[k] += line->rounding * noise(line->draw, (uint32_t)id, k);
+            q[k] += line->rounding * noise(line->draw, id, k);
 }
 
 /* Cross product of a and b where its rounded products are equal: what the rounding hid, and its sign (never 0). a has
@@ -145,7 +147,7 @@ static bool clip(tc_hit *hit, double *worst, const tc_reference *reference, cons
     double q[4][3];
     corner p[4];
     for (int i = 0; i < 4; i++) {
-        place(q[i], reference, line, id[i]);
+        place(q[i], &reference->vertex[3 * (size_t)id[i]], line, (uint32_t)id[i]);
         p[i] = (corner){tc_vec_dot(q[i], line->u), tc_vec_dot(q[i], line->v)};
     }
     /* Both bounds strict: a ray through the rim still needs its signs. */
@@ -265,9 +267,8 @@ static bool collect(size_t *n, double *worst, tc_scratch *scratch, const tc_refe
     return true;
 }
 
-/* The same, from beside the line if its depths are in doubt: the best of up to five places. */
-static bool collect_surely(size_t *n, tc_scratch *scratch, const tc_reference *reference, const tc_line *line,
-                           double shift)
+/* The same, from beside the line if its depths are in doubt: the best of up to five places, which *line becomes. */
+static bool collect_surely(size_t *n, tc_scratch *scratch, const tc_reference *reference, tc_line *line, double shift)
 {
     double worst, least;
     if (!collect(n, &least, scratch, reference, line, shift))
@@ -284,9 +285,11 @@ static bool collect_surely(size_t *n, tc_scratch *scratch, const tc_reference *r
         if (worst < least)
             least = worst, best = moved;
         if (least == 0)
-            return true;
+            break;
     }
-    return collect(n, &worst, scratch, reference, &best, shift);
+    bool there = least == 0; /* the last place is the best */
+    *line = best;
+    return there || collect(n, &worst, scratch, reference, line, shift);
 }
 
 /* By entry, then exit, then cell: the same order however the hierarchy was built. */
@@ -320,40 +323,33 @@ static void sort(tc_hit *hit, size_t n)
     }
 }
 
-/* The hits again, in the order that overlap.c defines. */
-static bool collect_overlapping(size_t *n, tc_scratch *scratch, const tc_reference *reference, const tc_line *line,
+/* The hits again, in the order that overlap.c defines; *line becomes the line that they were found with. */
+static bool collect_overlapping(size_t *n, tc_scratch *scratch, const tc_reference *reference, tc_line *line,
                                 double shift)
 {
-    tc_line all = *line;
-    all.whole = true;
-    all.t_min = -INFINITY; /* runs begin where the ray enters them, seen or not */
+    const double t_min = line->t_min, t_max = line->t_max;
+    line->whole = true;
+    line->t_min = -INFINITY; /* runs begin where the ray enters them, seen or not */
     size_t m;
-    if (!collect_surely(&m, scratch, reference, &all, shift) ||
+    if (!collect_surely(&m, scratch, reference, line, shift) ||
         !tc_hits_order(scratch->hit, m, reference, line->unsure))
         return false;
     *n = 0;
     for (size_t i = 0; i < m; i++) {
         tc_hit *hit = &scratch->hit[i];
-        if (hit->t0 < hit->t1 && cut(hit, line->t_min, line->t_max))
+        if (hit->t0 < hit->t1 && cut(hit, t_min, t_max))
             scratch->hit[(*n)++] = *hit;
     }
     return true;
 }
 
-tc_status tc_line_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
-                        const tc_line *line, double shift, int worker)
+/* The density emitter. */
+static void gather(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
+                   const tc_hit *hit, size_t n)
 {
-    *out = (tc_reference_ray){.length = 0};
-    tc_scratch *scratch = &reference->scratch[worker];
-    size_t n;
-    if (!collect_surely(&n, scratch, reference, line, shift))
-        return TC_E_MEMORY;
-    sort(scratch->hit, n);
-    if (tc_hits_overlap(scratch->hit, n) && !collect_overlapping(&n, scratch, reference, line, shift))
-        return TC_E_MEMORY;
     tc_segment_sum sum = {.rgba = {0, 0, 0, 0}, .clear = 1};
     for (size_t i = 0; i < n; i++) {
-        const tc_hit *h = &scratch->hit[i];
+        const tc_hit *h = &hit[i];
         double length = (h->t1 - h->t0) / reference->scale;
         out->length += length;
         if (!(sum.clear > 1e-18)) /* what is behind cannot be told */
@@ -366,5 +362,90 @@ tc_status tc_line_trace(tc_reference_ray *out, const tc_reference *reference, co
     for (int i = 0; i < 4; i++)
         out->rgba[i] = sum.rgba[i];
     out->segments = n;
+}
+
+tc_status tc_line_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
+                        const tc_line *line, double shift, int worker)
+{
+    *out = (tc_reference_ray){.length = 0};
+    tc_scratch *scratch = &reference->scratch[worker];
+    size_t n;
+    tc_line part = *line;
+    if (reference->look)
+        tc_look_cut(&part, reference);
+    tc_line walked = part;
+    if (!collect_surely(&n, scratch, reference, &walked, shift))
+        return TC_E_MEMORY;
+    sort(scratch->hit, n);
+    if (tc_hits_overlap(scratch->hit, n)) {
+        walked = part;
+        if (!collect_overlapping(&n, scratch, reference, &walked, shift))
+            return TC_E_MEMORY;
+    }
+    if (reference->look)
+        return tc_look_gather(out, reference, tf, unit, scratch->hit, n, line, &walked, worker);
+    gather(out, reference, tf, unit, scratch->hit, n);
     return TC_OK;
+}
+
+/* -------------------------------------------------------------------------------------------- what a look asks for */
+
+/* Weights of the corners of face i < j < k where the line passes it, and its depth there. */
+static void weigh_face(double *t, double weight[4], const corner p[4], const double z[4], int i, int j, int k)
+{
+    int sign;
+    const double w[3] = {fabs(cross(&sign, p[j], p[k])), fabs(cross(&sign, p[i], p[k])),
+                         fabs(cross(&sign, p[i], p[j]))};
+    double total = w[0] + w[1] + w[2];
+    *t = blend(w, total, z[i], z[j], z[k]);
+    memset(weight, 0, 4 * sizeof *weight);
+    weight[i] = total > 0 ? w[0] / total : 1.0 / 3;
+    weight[j] = total > 0 ? w[1] / total : 1.0 / 3;
+    weight[k] = total > 0 ? w[2] / total : 1.0 / 3;
+}
+
+void tc_line_ends(tc_ends *out, const tc_reference *reference, const tc_line *line, const tc_hit *hit)
+{
+    static const int face[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
+    const int32_t *id = reference->mesh->tet + 4 * (size_t)hit->tet;
+    for (int i = 0; i < 4; i++) {
+        int j = i;
+        for (; j > 0 && out->id[j - 1] > id[i]; j--)
+            out->id[j] = out->id[j - 1];
+        out->id[j] = id[i];
+    }
+    corner p[4];
+    double z[4];
+    for (int i = 0; i < 4; i++) {
+        double q[3];
+        place(q, &reference->vertex[3 * (size_t)out->id[i]], line, (uint32_t)out->id[i]);
+        p[i] = (corner){tc_vec_dot(q, line->u), tc_vec_dot(q, line->v)};
+        z[i] = tc_vec_dot(q, line->d);
+    }
+    const int *f = face[hit->in], *g = face[hit->out];
+    weigh_face(&out->t[0], out->weight[0], p, z, f[0], f[1], f[2]);
+    weigh_face(&out->t[1], out->weight[1], p, z, g[0], g[1], g[2]);
+    if (out->t[0] > out->t[1]) {
+        const tc_ends turned = *out;
+        for (int end = 0; end < 2; end++) {
+            out->t[end] = turned.t[1 - end];
+            memcpy(out->weight[end], turned.weight[1 - end], sizeof out->weight[end]);
+        }
+    }
+}
+
+bool tc_line_triangle(double *t, const tc_line *line, const double *vertex, const int32_t id[3], uint32_t salt)
+{
+    corner p[3];
+    double z[3];
+    for (int i = 0; i < 3; i++) {
+        double q[3];
+        place(q, vertex + 3 * (size_t)id[i], line, (uint32_t)id[i] + 0x9e3779b9u * salt);
+        p[i] = (corner){tc_vec_dot(q, line->u), tc_vec_dot(q, line->v)};
+        z[i] = tc_vec_dot(q, line->d);
+    }
+    int s01, s02, s12;
+    const double w[3] = {fabs(cross(&s12, p[1], p[2])), fabs(cross(&s02, p[0], p[2])), fabs(cross(&s01, p[0], p[1]))};
+    *t = blend(w, w[0] + w[1] + w[2], z[0], z[1], z[2]);
+    return s01 == s12 && s12 != s02;
 }

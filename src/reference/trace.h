@@ -17,10 +17,15 @@ typedef struct tc_hit {
     bool flat;       /* for overlap.c: the cell has no volume */
 } tc_hit;
 
+typedef struct tc_meeting tc_meeting;       /* shapes.h */
+typedef struct tc_look_ready tc_look_ready; /* look.h */
+
 typedef struct tc_scratch {
     tc_hit *hit;
     size_t capacity;
-    char apart[128 - sizeof(tc_hit *) - sizeof(size_t)]; /* a cache line of one's own */
+    tc_meeting *meeting; /* [n_meeting] room */
+    size_t n_meeting;
+    char apart[128 - 2 * sizeof(void *) - 2 * sizeof(size_t)]; /* a cache line of one's own */
 } tc_scratch;
 
 struct tc_reference {
@@ -33,6 +38,7 @@ struct tc_reference {
     bool has_nan_color;
     double nan_color[4];
     int samples;         /* rays a pixel; 0: 1 */
+    tc_look_ready *look; /* NULL: the plain density emitter */
     tc_scratch *scratch; /* [TC_REFERENCE_WORKERS] */
 };
 
@@ -44,6 +50,7 @@ typedef struct tc_line {
     double
         rounding;  /* each vertex is moved at random by up to this along each axis; 0. At most 1e-6: boxes are padded */
     uint32_t draw; /* which random moves */
+    double data;   /* values of other fields are moved by this part of their range; 0 */
     bool whole;    /* every cell is a hit, whole: those of no length and those that are not seen too */
 } tc_line;
 
@@ -52,6 +59,19 @@ void tc_line_init(tc_line *out, const tc_reference *reference, const double orig
 /* As tc_reference_trace; shift is added to every scalar. */
 tc_status tc_line_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
                         const tc_line *line, double shift, int worker);
+
+/* Where a line passes a cell, uncut: depths t[0] <= t[1], and what each corner, by rank of its id, weighs there. */
+typedef struct tc_ends {
+    int32_t id[4]; /* ascending */
+    double t[2], weight[2][4];
+} tc_ends;
+
+/* line: the one that the hit was found with. Cost: that of asking a cell. */
+void tc_line_ends(tc_ends *out, const tc_reference *reference, const tc_line *line, const tc_hit *hit);
+
+/* Where a line meets a triangle: as with the faces of cells, one of two triangles with a common edge has it.
+ *   vertex [][3] scaled; id [3] ascending; salt: tells vertices of different lists apart for tc_line.rounding */
+bool tc_line_triangle(double *t, const tc_line *line, const double *vertex, const int32_t id[3], uint32_t salt);
 
 /* Do hits in the order of entry reach into each other? Cost: O(n). */
 bool tc_hits_overlap(const tc_hit *hit, size_t n);
