@@ -5,6 +5,6 @@
 #include "gpu/effect.h"
 
 extern const tc_effect tc_effect_density_emitter, tc_effect_surfaces;
-extern const tc_effect tc_effect_clip, tc_effect_iso;
+extern const tc_effect tc_effect_clip, tc_effect_iso, tc_effect_color_field;
 
 #endif

@@ -47,6 +47,8 @@ static void bind(const void *state, const tc_effect_scene *scene, const tc_job *
         tc_transfer_evaluate(rgba, scene->transfer, iso[i].value);
         for (int k = 0; k < 3 && iso[i].has_color; k++)
             rgba[k] = iso[i].color[k];
+        if (!iso[i].has_color && scene->look->color_field)
+            rgba[0] = -1; /* color_field.glsl knows */
         gl->Uniform1f(value + i, (GLfloat)(range ? tc_place(iso[i].value, scene->scalar[0], scene->scalar[1]) : 2));
         const GLfloat shown[4] = {(GLfloat)rgba[0], (GLfloat)rgba[1], (GLfloat)rgba[2], (GLfloat)iso[i].opacity};
         gl->Uniform4fv(color + i, 1, shown);

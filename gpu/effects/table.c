@@ -6,5 +6,6 @@ const tc_effect *const tc_effect_table[] = {
     &tc_effect_surfaces,
     &tc_effect_clip,
     &tc_effect_iso,
+    &tc_effect_color_field,
     NULL,
 };

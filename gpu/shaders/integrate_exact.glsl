@@ -55,7 +55,7 @@ bool integral_waits(Integral i)
 // The ray ends where the scalar is s.
 void integral_stop(inout Integral i, float s)
 {
-    gathered_absorb_half(i.sum, i.at.front.rgb);
+    gathered_absorb_half(i.sum, i.at.front.rgb); //@or exact_rest
 }
 
 #ifdef NAN_COLOR

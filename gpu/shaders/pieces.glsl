@@ -11,7 +11,7 @@
 // A round is one such piece. Rays of one group need different numbers of them; in a loop inside the loop over steps all
 // would wait for the one that needs most, at every step. So march.glsl has one loop, in whose rounds every ray adds a piece,
 // or with PIECES_TWICE two, and those whose segment is done make a step first.
-#include "integrate_depth.glsl"
+#include "integrate_depth.glsl" //@then pieces_declare
 
 FETCH_BUFFER(3) tf_pieces; // three an end of pieces: x; r g b a below; those above, which differ at a step
 FETCH_FLOATS(13) tf_piece_floats; // the same, float by float

@@ -1,5 +1,5 @@
 // integrate_none.glsl: nothing between surfaces.
-#include "integrate_depth.glsl"
+#include "integrate_depth.glsl" //@then pieces_declare
 
 struct Integral {
     Gathered sum;

@@ -1,0 +1,145 @@
+/* color_field.c: colour by one field, opacity by another. */
+#include "gpu/effects/effects.h"
+
+#include "core/memory.h"
+#include "gpu/pass.h"
+#include "mesh/field.h"
+#include "transfer_functions/pieces.h"
+#include "transfer_functions/place.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct colors {
+    tc_texture_buffer values, pieces;
+    uint64_t field, function; /* serials of what is there; 0: nothing */
+    int n_piece;
+    double map[2];
+} colors;
+
+static bool wanted(char *why, const tc_effect_scene *scene)
+{
+    const tc_field *field = scene->look->color_field;
+    snprintf(why, TC_EFFECT_WHY, "colour by %s", field && field->name ? field->name : "a second field");
+    return field != NULL;
+}
+
+static void define(char *out, size_t capacity, const tc_effect_scene *scene)
+{
+    snprintf(out, capacity, "%s",
+             scene->look->color_field->association == TC_POINT_DATA ? "#define COLOR_POINTS\n" : "");
+}
+
+static int rounds(const tc_effect_scene *scene)
+{
+    return (int)(scene->look->color_function->n < 30000 ? scene->look->color_function->n : 30000);
+}
+
+static tc_status upload_values(colors *c, const tc_field *field, const tc_gl *gl, tc_error *err)
+{
+    float *value = tc_alloc(field->n, sizeof *value);
+    if (!value)
+        return tc_fail_memory(err, "the values to colour by", field->n, sizeof *value);
+    for (size_t i = 0; i < field->n; i++)
+        value[i] = isfinite(field->value[i]) ? (float)tc_place(field->value[i], field->range[0], field->range[1]) : 0;
+    tc_status status = tc_texture_buffer_upload(&c->values, gl, value, field->n, sizeof *value, GL_R32F,
+                                                "uploading the values to colour by", err);
+    free(value);
+    return status;
+}
+
+static tc_status upload_function(colors *c, const tc_field *field, const tc_transfer *tf, const tc_gl *gl, tc_error *err)
+{
+    double span[2];
+    tc_pieces pieces;
+    tc_transfer_span(span, tf);
+    double margin = span[1] > span[0] ? 0.25 * (span[1] - span[0]) : fmax(1, fabs(span[0]));
+    span[0] -= margin; /* a step at an end lies inside */
+    span[1] += margin;
+    tc_status status = tc_pieces_build(&pieces, tf, span, err);
+    if (status != TC_OK)
+        return status;
+    c->n_piece = (int)pieces.n;
+    double lo = field->range[0], hi = field->range[1];
+    c->map[1] = (lo - span[0]) / (span[1] - span[0]);
+    c->map[0] = (hi - lo) / (span[1] - span[0]);
+    status = tc_texture_buffer_upload(&c->pieces, gl, pieces.end, 3 * (pieces.n + 1), 16, GL_RGBA32F,
+                                      "uploading the function to colour by", err);
+    tc_pieces_finish(&pieces);
+    return status;
+}
+
+static void finish(void *state, const tc_gl *gl)
+{
+    colors *c = state;
+    tc_texture_buffer_finish(&c->values, gl);
+    tc_texture_buffer_finish(&c->pieces, gl);
+    c->field = c->function = 0;
+}
+
+static tc_status update(void *state, size_t *bytes, const tc_effect_scene *scene, const tc_gl *gl, tc_error *err)
+{
+    colors *c = state;
+    const tc_field *field = scene->look->color_field;
+    const tc_transfer *tf = scene->look->color_function;
+    tc_status status = TC_OK;
+    bool other = c->field != field->serial;
+    if (other) {
+        finish(c, gl);
+        status = upload_values(c, field, gl, err);
+    }
+    if (status == TC_OK && (other || c->function != tf->serial)) {
+        tc_texture_buffer_finish(&c->pieces, gl);
+        status = upload_function(c, field, tf, gl, err);
+    }
+    c->field = status == TC_OK ? field->serial : 0;
+    c->function = status == TC_OK ? tf->serial : 0;
+    *bytes = c->values.bytes + c->pieces.bytes;
+    return status;
+}
+
+static void bind(const void *state, const tc_effect_scene *scene, const tc_job *job, GLuint program)
+{
+    const colors *c = state;
+    const tc_gl *gl = job->gl;
+    GLint last = gl->GetUniformLocation(program, "color_last");
+    (void)scene;
+    if (last < 0)
+        return;
+    int half = 1;
+    while (2 * half < c->n_piece)
+        half *= 2;
+    tc_pass_fetch(gl, program, "color_values", TC_UNIT_EFFECT_COLOR, GL_R32F, c->values.texture, job->software);
+    tc_pass_fetch(gl, program, "color_pieces", TC_UNIT_EFFECT_PIECES, GL_RGBA32F, c->pieces.texture, job->software);
+    tc_pass_vec2(gl, program, "color_map", c->map[0], c->map[1]);
+    tc_pass_int(gl, program, "color_last", c->n_piece - 1);
+    tc_pass_int(gl, program, "color_half", half);
+}
+
+static void brighten(double most[3], const tc_effect_scene *scene)
+{
+    const tc_transfer *tf = scene->look->color_function;
+    for (size_t i = 0; i < tf->n; i++) {
+        const double color[3] = {tf->knot[i].r, tf->knot[i].g, tf->knot[i].b};
+        for (int k = 0; k < 3; k++)
+            most[k] = fmax(most[k], color[k]);
+    }
+}
+
+const tc_effect tc_effect_color_field = {
+    .name = "color-field",
+    .what = "colour by another field than the one that absorbs",
+    .shaders = "effects/parts.glsl effects/color_field.glsl",
+    .excludes = " emission maximum minimum average ",
+    .needs = TC_NEEDS_PIECES | TC_NEEDS_SIGNS,
+    .wanted = wanted,
+    .define = define,
+    .rounds = rounds,
+    .state_bytes = sizeof(colors),
+    .update = update,
+    .finish = finish,
+    .bind = bind,
+    .brighten = brighten,
+};
