@@ -359,6 +359,7 @@ typedef struct tc_compare_result {
 TC_API tc_status tc_image_compare(tc_compare_result *out, const tc_image *a, const tc_image *b, tc_error *err);
 
 #include "tetcast_look.h"
+#include "tetcast_figure.h"
 
 /* ----------------------------------------------------------------------------------------------------- render */
 
