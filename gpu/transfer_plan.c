@@ -34,13 +34,21 @@ static const double DEPTH_MOST = 1000; /* of an edge: running integrals round to
 static const double WIDTH_LEAST = 1e-300;
 static const double NARROW_MOST = 1e6;
 static const double LENGTH_UNIT_MOST = 1e15;
+static const double STEP_MARGIN = 1.0 / 16;           /* of the knots' span */
 static const double WIDEN_CONSTANT = 1e-3; /* of the scalar: the span of data of one value */
 
 /* The part of the data's range in which the function changes: beyond its end knots it is constant. */
 static void find_span(double span[2], const tc_transfer_gpu_request *request)
 {
+    const tc_transfer *tf = request->transfer;
     double knots[2];
-    tc_transfer_span(knots, request->transfer);
+    tc_transfer_span(knots, tf);
+    /* A step at an end: beyond it the function is another constant. */
+    double margin = STEP_MARGIN * (knots[1] - knots[0]);
+    if (tf->n > 1 && tf->knot[1].s == knots[0])
+        knots[0] -= margin;
+    if (tf->n > 1 && tf->knot[tf->n - 2].s == knots[1])
+        knots[1] += margin;
     span[0] = fmax(knots[0], request->scalar[0]);
     span[1] = fmin(knots[1], request->scalar[1]);
     if (!(span[1] > span[0])) { /* constant over the data, or data without a range */

@@ -76,6 +76,16 @@ static void a_step_is_blurred(void **state)
     check_knots("one step", one, 4);
 }
 
+static void a_step_where_the_function_ends_goes_beyond(void **state)
+{
+    (void)state;
+    static const tc_knot box[] = {
+        {0.3, 0.1, 0.2, 0.9, 0}, {0.3, 0.1, 0.2, 0.9, 0.5}, {0.6, 0.9, 0.2, 0.1, 0.5}, {0.6, 1, 1, 1, 0}};
+    check_knots("a box within the data", box, 4);
+    check_knots("a step at the lower end", box, 3);
+    check_knots("a step at the upper end", box + 1, 3);
+}
+
 static void many_steps_are_blurred(void **state)
 {
     (void)state;
@@ -409,6 +419,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_function_of_a_thousandth_of_the_data_is_wrong),
         cmocka_unit_test(a_function_wider_than_the_data_is_wrong),
         cmocka_unit_test(a_step_is_blurred),
+        cmocka_unit_test(a_step_where_the_function_ends_goes_beyond),
         cmocka_unit_test(many_steps_are_blurred),
         cmocka_unit_test(a_spike_of_a_500th_is_missed),
         cmocka_unit_test(a_spike_of_a_10000th_is_missed),
