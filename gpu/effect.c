@@ -154,6 +154,20 @@ void tc_effects_bind(const tc_effects *effects, const tc_job *job, GLuint progra
             effects->row[k]->bind(effects->store->state[effects->place[k]], &effects->scene, job, program);
 }
 
+void tc_effects_nan_color(double color[4], const tc_effects *effects)
+{
+    for (int k = 0; k < effects->n; k++) {
+        tc_knot knot = {0, color[0], color[1], color[2], color[3]};
+        if (!effects->row[k]->knot)
+            continue;
+        effects->row[k]->knot(&knot, &effects->scene);
+        color[0] = knot.r;
+        color[1] = knot.g;
+        color[2] = knot.b;
+        color[3] = knot.a;
+    }
+}
+
 void tc_effects_brighten(double most[3], const tc_effects *effects)
 {
     for (int k = 0; k < effects->n; k++)

@@ -100,6 +100,8 @@ tc_status tc_effects_function(const tc_transfer **out, tc_effect_store *store, c
 tc_status tc_effects_update(tc_effects *effects, size_t *bytes, tc_effect_store *store, const tc_gl *gl, tc_error *err);
 /* Of the program in use. */
 void tc_effects_bind(const tc_effects *effects, const tc_job *job, GLuint program);
+/* What a row makes of the function's colours holds for that of missing values: r, g, b, attenuation, in place. */
+void tc_effects_nan_color(double color[4], const tc_effects *effects);
 void tc_effects_brighten(double most[3], const tc_effects *effects);
 /* Their names, with ", " between them. */
 void tc_effects_names(char *out, size_t capacity, const tc_effects *effects);

@@ -378,6 +378,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.nonfinite = mesh->report.nonfinite_scalars > 0;
     job.has_nan_color = job.nonfinite && options->has_nan_color;
     memcpy(job.nan_color, options->nan_color, sizeof job.nan_color);
+    tc_effects_nan_color(job.nan_color, &effects);
     job.nan_color[3] = fmin(job.nan_color[3], OPAQUE);
     find_most(job.most, function, job.has_nan_color ? job.nan_color : NULL);
     tc_effects_brighten(job.most, &effects);

@@ -3,6 +3,12 @@
 
 const tc_effect *const tc_effect_table[] = {
     &tc_effect_density_emitter,
+    &tc_effect_emission,
+    &tc_effect_absorption,
+    &tc_effect_xray,
+    &tc_effect_maximum,
+    &tc_effect_minimum,
+    &tc_effect_average,
     &tc_effect_surfaces,
     &tc_effect_clip,
     &tc_effect_iso,

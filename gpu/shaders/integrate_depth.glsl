@@ -21,10 +21,10 @@ vec4 gathered_end(Gathered g)
 // A stretch of optical depth t of one colour.
 void gathered_add(inout Gathered g, vec3 color, float t)
 {
-    g.depth += t;
-    float transmittance = exp(-g.depth);
-    g.rgb += color * (g.transmittance - transmittance);
-    g.transmittance = transmittance;
+    g.depth += t; //@or gathered_light
+    float transmittance = exp(-g.depth); //@or gathered_light
+    g.rgb += color * (g.transmittance - transmittance); //@or gathered_light
+    g.transmittance = transmittance; //@or gathered_light
 }
 
 // Half of what is left is absorbed, in this colour.

@@ -1,0 +1,11 @@
+// emission.glsl: light that nothing absorbs: the integral of colour times attenuation. Both are linear in a piece, so that
+// Simpson's rule is exact. What is left is no opacity, but light to be added to what lies behind.
+
+//@section piece_light
+    g.rgb += part * (1.0 / 6.0) * (p.front.rgb * (2.0 * p.front.a + back.a) + back.rgb * (p.front.a + 2.0 * back.a));
+
+//@section gathered_light
+    g.rgb += color * t;
+
+//@section resolved
+    return vec4(max(color.rgb, vec3(0.0)), 0.0);
