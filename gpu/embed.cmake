@@ -2,7 +2,7 @@
 #   cmake -DDIR=… -DOUT=… -P embed.cmake
 file(GLOB shaders RELATIVE ${DIR} ${DIR}/*.glsl ${DIR}/*.vert ${DIR}/*.frag ${DIR}/*.comp)
 list(SORT shaders)
-file(GLOB effects RELATIVE ${DIR} ${DIR}/effects/*.glsl) # behind the others, whose numbers in #line stay
+file(GLOB effects RELATIVE ${DIR} ${DIR}/effects/*.*) # behind the others, whose numbers in #line stay as they are
 list(SORT effects)
 list(APPEND shaders ${effects})
 set(text "/* The shaders of gpu/shaders as text; written by gpu/embed.cmake. */\n#include \"gpu/program.h\"\n\n")
