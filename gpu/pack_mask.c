@@ -159,12 +159,13 @@ tc_status tc_pack_mask_select(uint32_t **out, size_t *kept, const tc_mesh *mesh,
 
 /* --------------------------------------------------------------------------------------------------- empty space */
 
-enum { PLACES = 1024 };                     /* of the lookup table */
+enum { PLACES = 1024 };                    /* of the lookup table */
 static const uint32_t SEARCH = UINT32_MAX; /* the number at a place where there are several */
 
 /* Where a function's attenuation is 0: runs from [i] … to [i], ends included, in order, that do not touch. Scalars are
  * numbered by the run that they lie in, from 1, those in none 0: a cell is transparent if and only if its scalars have
- * one number and it is not 0, since the runs have no holes. `number` holds that of all scalars whose place is the same. */
+ * one number and it is not 0, since the runs have no holes. `number` holds that of all scalars whose place is the same.
+ */
 typedef struct runs {
     size_t n;
     double *from, *to;

@@ -421,10 +421,11 @@ static tc_status make_field(tc_field **out, const tc_mesh *mesh, const char *pat
     const double *value;
     tc_association association;
     if (!json_is_true(json_object_get(reply->json, "same_mesh")))
-        return tc_fail(err, TC_E_MOVED,
-                       "%s: the points or cells of step %d are not those of the mesh that is to have a field of it; take "
-                       "the mesh and the field of one step",
-                       path, (int)json_integer_value(json_object_get(reply->json, "step")));
+        return tc_fail(
+            err, TC_E_MOVED,
+            "%s: the points or cells of step %d are not those of the mesh that is to have a field of it; take "
+            "the mesh and the field of one step",
+            path, (int)json_integer_value(json_object_get(reply->json, "step")));
     tc_status status = find_scalar(&value, &association, reply, mesh->n_vertex_source, mesh->n_tet_source, err);
     if (status)
         return status;
@@ -441,11 +442,13 @@ tc_status tc_field_read(tc_field **out, tc_mesh *mesh, const char *path, const t
         return tc_fail(err, TC_E_ARG, "tc_field_read: out, mesh or path is NULL");
     *out = NULL;
     if (!mesh->source)
-        return tc_fail(err, TC_E_ARG,
-                       "the mesh that is to have a field of %s was not read from a file; give the values to tc_field_create",
-                       path);
+        return tc_fail(
+            err, TC_E_ARG,
+            "the mesh that is to have a field of %s was not read from a file; give the values to tc_field_create",
+            path);
     if (!mesh->prepared)
-        return tc_fail(err, TC_E_ARG, "a field is of a mesh in its order: call tc_mesh_prepare before %s is read", path);
+        return tc_fail(err, TC_E_ARG, "a field is of a mesh in its order: call tc_mesh_prepare before %s is read",
+                       path);
     if (!options)
         options = &defaults;
     tc_reply reply = {0};

@@ -12,13 +12,8 @@
 
 void tc_shade_defaults(tc_shade *shade)
 {
-    *shade = (tc_shade){.volume = true,
-                        .surfaces = true,
-                        .ambient = 0.2,
-                        .diffuse = 0.8,
-                        .specular = 0.2,
-                        .power = 20,
-                        .magnitude = 1};
+    *shade = (tc_shade){
+        .volume = true, .surfaces = true, .ambient = 0.2, .diffuse = 0.8, .specular = 0.2, .power = 20, .magnitude = 1};
 }
 
 /* ------------------------------------------------------------------------------------------ what is asked for */
@@ -51,9 +46,9 @@ static bool has_lit_geometry(const tc_look *look)
 
 bool tc_look_is_plain(const tc_look *look)
 {
-    return !look || (look->model == TC_MODEL_DENSITY_EMITTER && look->n_iso == 0 && !tc_look_lights_volume(look) &&
-                     !look->color_field && look->n_plane == 0 && !look->has_box && look->n_select == 0 &&
-                     !has_geometry(look));
+    return !look ||
+           (look->model == TC_MODEL_DENSITY_EMITTER && look->n_iso == 0 && !tc_look_lights_volume(look) &&
+            !look->color_field && look->n_plane == 0 && !look->has_box && look->n_select == 0 && !has_geometry(look));
 }
 
 /* ----------------------------------------------------------------------------------------------- what is wrong */
@@ -92,8 +87,8 @@ static bool is_direction(const double *x)
     return length > 1e-150 && length < 1e150;
 }
 
-static const char *const model_name[] = {"the density emitter", "emission",  "absorption", "maximum intensity",
-                                         "isosurfaces alone",   "an X-ray",  "minimum intensity", "average intensity"};
+static const char *const model_name[] = {"the density emitter", "emission", "absorption",        "maximum intensity",
+                                         "isosurfaces alone",   "an X-ray", "minimum intensity", "average intensity"};
 
 static bool shows_one_scalar(tc_model model)
 {
@@ -209,8 +204,9 @@ static bool wrong_field(sentence s, const tc_field *field, const tc_mesh *mesh, 
     if (field->mesh_serial == mesh->serial)
         return false;
     const char *name = field->name ? field->name : "without a name";
-    return wrong(s, "the field '%s' to %s by is of another mesh, or of this one before it was prepared again; make it anew",
-                 name, what);
+    return wrong(
+        s, "the field '%s' to %s by is of another mesh, or of this one before it was prepared again; make it anew",
+        name, what);
 }
 
 static bool wrong_color(sentence s, const tc_look *look, const tc_mesh *mesh)
@@ -222,7 +218,8 @@ static bool wrong_color(sentence s, const tc_look *look, const tc_mesh *mesh)
     if (!look->color_field)
         return false;
     if (look->model == TC_MODEL_ABSORPTION || look->model == TC_MODEL_XRAY)
-        return wrong(s, "%s shows no colours that a second field could give; leave that field out, or take another model",
+        return wrong(s,
+                     "%s shows no colours that a second field could give; leave that field out, or take another model",
                      model_name[look->model]);
     if (shows_one_scalar(look->model))
         return wrong(s,
@@ -269,8 +266,8 @@ static bool wrong_select(sentence s, const tc_look *look, const tc_mesh *mesh)
         for (int r = 0; r < select->n_range; r++) {
             const double lo = select->range[r][0], hi = select->range[r][1];
             if (!(lo <= hi))
-                return wrong(s, "a range to select cells by is from %g to %g; give two numbers, the lesser one first", lo,
-                             hi);
+                return wrong(s, "a range to select cells by is from %g to %g; give two numbers, the lesser one first",
+                             lo, hi);
         }
         if (select->field && wrong_field(s, select->field, mesh, "select"))
             return true;
@@ -292,12 +289,13 @@ const char *tc_look_wrong(char *why, size_t capacity, const tc_look *look, const
     if (!look)
         return NULL;
     if ((int)look->model < TC_MODEL_DENSITY_EMITTER || (int)look->model > TC_MODEL_AVERAGE)
-        wrong(s, "model %d is unknown; there are %d to %d", (int)look->model, TC_MODEL_DENSITY_EMITTER, TC_MODEL_AVERAGE);
+        wrong(s, "model %d is unknown; there are %d to %d", (int)look->model, TC_MODEL_DENSITY_EMITTER,
+              TC_MODEL_AVERAGE);
     else if (!mesh->prepared)
         wrong(s, "the mesh was not prepared; call tc_mesh_prepare first");
     else if (!wrong_list(s, look->n_geometry, look->geometry, "geometries") && !wrong_geometry(s, look) &&
-             !wrong_isos(s, look, mesh) && !wrong_shade(s, look) && !wrong_color(s, look, mesh) && !wrong_clip(s, look) &&
-             !wrong_select(s, look, mesh))
+             !wrong_isos(s, look, mesh) && !wrong_shade(s, look) && !wrong_color(s, look, mesh) &&
+             !wrong_clip(s, look) && !wrong_select(s, look, mesh))
         return NULL;
     return why;
 }

@@ -171,8 +171,8 @@ static size_t check_empty(const tc_mesh *mesh, const tc_transfer *tf)
     for (size_t i = 0; i < mesh->n_tet; i++) {
         double lo = INFINITY, hi = -INFINITY;
         for (int k = 0; k < 4; k++) {
-            const double x = mesh->association == TC_CELL_DATA ? mesh->scalar[i]
-                                                               : mesh->scalar[mesh->tet[4 * i + (size_t)k]];
+            const double x =
+                mesh->association == TC_CELL_DATA ? mesh->scalar[i] : mesh->scalar[mesh->tet[4 * i + (size_t)k]];
             lo = isfinite(x) ? fmin(lo, x) : NAN;
             hi = isfinite(x) ? fmax(hi, x) : NAN;
             if (isnan(lo))
@@ -193,10 +193,10 @@ static void a_cell_that_absorbs_is_empty(void **state)
     (void)state;
     static const tc_knot ramp[] = {{0, 0, 0, 0, 0}, {2, 0, 0, 0, 0}, {3, 0, 0, 0, 1}, {4, 0, 0, 0, 0}, {7, 0, 0, 0, 0}},
                          steps[] = {{1, 0, 0, 0, 5}, {1, 0, 0, 0, 0}, {2.5, 0, 0, 0, 0}, {2.5, 0, 0, 0, 1},
-                                    {4, 0, 0, 0, 1}, {4, 0, 0, 0, 0}, {6, 0, 0, 0, 0}, {6, 0, 0, 0, 2}},
+                                    {4, 0, 0, 0, 1}, {4, 0, 0, 0, 0}, {6, 0, 0, 0, 0},   {6, 0, 0, 0, 2}},
                          outside[] = {{2, 0, 0, 0, 1}, {3, 0, 0, 0, 0}, {4, 0, 0, 0, 0}, {5, 0, 0, 0, 1}},
-                         touch[] = {{-1, 0, 0, 0, 0}, {2, 0, 0, 0, 0}, {2, 0, 0, 0, 1}, {5, 0, 0, 0, 1}, {6, 0, 0, 0, 0},
-                                    {6, 0, 0, 0, 1}, {7, 0, 0, 0, 0}},
+                         touch[] = {{-1, 0, 0, 0, 0}, {2, 0, 0, 0, 0}, {2, 0, 0, 0, 1}, {5, 0, 0, 0, 1},
+                                    {6, 0, 0, 0, 0},  {6, 0, 0, 0, 1}, {7, 0, 0, 0, 0}},
                          far[] = {{100, 0, 0, 0, 0}, {200, 0, 0, 0, 1}};
     const struct {
         const tc_knot *knot;

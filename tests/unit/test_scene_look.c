@@ -74,8 +74,13 @@ static void reset(sample *s)
     s->select[1] = (tc_select){s->field, 1, (const double(*)[2])s->range};
     memcpy(s->vertex, (const double[9]){0, 0, 0, 1, 0, 0, 0, 1, 0}, sizeof s->vertex);
     memcpy(s->triangle, (const int32_t[3]){0, 1, 2}, sizeof s->triangle);
-    s->geometry[0] = (tc_geometry){.n_vertex = 3, .n_triangle = 1, .vertex = s->vertex, .triangle = s->triangle,
-                                   .opacity = 1, .width = 1, .lit = true};
+    s->geometry[0] = (tc_geometry){.n_vertex = 3,
+                                   .n_triangle = 1,
+                                   .vertex = s->vertex,
+                                   .triangle = s->triangle,
+                                   .opacity = 1,
+                                   .width = 1,
+                                   .lit = true};
     s->look = (tc_look){.n_iso = 2,
                         .iso = s->iso,
                         .color_field = s->field,
@@ -209,10 +214,10 @@ static void what_excludes_each_other_passes(void **state)
     for (int i = 0; i < 3; i++) {
         REFUSED(s->look.model = one_scalar[i], "isosurfaces belong to matter that absorbs", "intensity");
         REFUSED(s->look.model = one_scalar[i]; s->look.n_iso = 0, "intensity", "volume unlit");
-        REFUSED(s->look.model = one_scalar[i]; s->look.n_iso = 0; s->look.shade.gradient = TC_GRADIENT_NONE, "intensity",
-                "second field");
-        REFUSED(s->look.model = one_scalar[i]; s->look.n_iso = 0; s->look.shade.volume = false; s->look.n_geometry = 0,
-                "intensity", "nothing that light");
+        REFUSED(s->look.model = one_scalar[i]; s->look.n_iso = 0;
+                s->look.shade.gradient = TC_GRADIENT_NONE, "intensity", "second field");
+        REFUSED(s->look.model = one_scalar[i]; s->look.n_iso = 0; s->look.shade.volume = false;
+                s->look.n_geometry = 0, "intensity", "nothing that light");
     }
     REFUSED(s->look.model = TC_MODEL_EMISSION, "isosurfaces belong to matter that absorbs", "emission");
     REFUSED(s->look.model = TC_MODEL_EMISSION; s->look.n_iso = 0, "emission", "unlit");
@@ -221,8 +226,8 @@ static void what_excludes_each_other_passes(void **state)
     REFUSED(s->look.model = TC_MODEL_ABSORPTION; s->look.shade.volume = false, "absorption", "second field");
     REFUSED(s->look.model = TC_MODEL_XRAY; s->look.shade.volume = false, "X-ray", "second field");
     REFUSED(s->look.model = TC_MODEL_SURFACES; s->look.n_iso = 0; s->look.n_geometry = 0, "isosurfaces alone", "value");
-    REFUSED(s->look.model = TC_MODEL_SURFACES; s->look.n_iso = 0; s->geometry[0].n_triangle = 0, "isosurfaces alone",
-            "value");
+    REFUSED(s->look.model = TC_MODEL_SURFACES; s->look.n_iso = 0;
+            s->geometry[0].n_triangle = 0, "isosurfaces alone", "value");
     REFUSED(s->look.color_function = NULL, "no function", "both or neither");
     REFUSED(s->look.color_field = NULL, "no field", "both or neither");
     REFUSED(s->look.color_field = s->foreign, "'alien'", "colour");
