@@ -256,6 +256,52 @@ static void long_texts_are_cut_to_their_place(void **state)
     assert_true(strstr(s->layout->item[0].text, "…") != NULL);
 }
 
+/* Labels that would meet are made fewer: none is missing between others. */
+static void a_bar_lacks_no_label(void **state)
+{
+    static const double range[][2] = {{0, 1}, {1.1e7, 1.9e7}, {-3e-9, 4e-9}, {101300, 101320}, {-0.02, 0.0315}};
+    scene *s = *state;
+    for (int width = 200; width < 1000; width += 50)
+        for (size_t r = 0; r < sizeof range / sizeof *range; r++) {
+            const int size[] = {width, 300};
+            make(s, TC_BAR_BOTTOM, 3, size, false, true);
+            s->figure.has_range = true;
+            memcpy(s->figure.range, range[r], sizeof range[r]);
+            assert_int_equal(tc_layout_make(s->layout, &s->figure, width, 300, NULL, NULL), TC_OK);
+            int n = 0;
+            double middle[16] = {0};
+            for (int i = 1; i < s->layout->n_front; i++) /* those that follow a tick */
+                if (s->layout->item[i].kind == TC_ITEM_TEXT && s->layout->item[i - 1].kind == TC_ITEM_LINE &&
+                    !s->layout->item[i - 1].hue)
+                    middle[n++] = 0.5 * (s->layout->item[i].box.x0 + s->layout->item[i].box.x1);
+            assert_true(n >= 1 && n <= 8);
+            for (int i = 2; i < n; i++)
+                if (fabs(middle[i] - 2 * middle[i - 1] + middle[i - 2]) > 0.35 * s->layout->em)
+                    fail_msg("a label is missing in a bar of a picture %d wide", width);
+            for (int i = 0, ticks = 0; i < s->layout->n_front; i++) { /* and as many as there are ticks */
+                const tc_item *line = &s->layout->item[i];
+                ticks += line->kind == TC_ITEM_LINE && !line->hue;
+                if (i + 1 == s->layout->n_front)
+                    assert_true(ticks <= n + 8); /* two frames of four lines */
+            }
+        }
+}
+
+static void a_title_a_little_too_long_is_made_smaller(void **state)
+{
+    scene *s = *state;
+    s->figure = (tc_figure){.title = ""};
+    assert_int_equal(tc_layout_make(s->layout, &s->figure, 512, 512, NULL, NULL), TC_OK);
+    double em = tc_font_em(1.25 * s->layout->em), room = 512 - 2 * s->layout->margin;
+    char text[200] = "n";
+    while (tc_font_width(text, em) < 1.1 * room)
+        strcat(text, "n");
+    s->figure.title = text;
+    assert_int_equal(tc_layout_make(s->layout, &s->figure, 512, 512, NULL, NULL), TC_OK);
+    assert_string_equal(s->layout->item[0].text, text);
+    assert_true(s->layout->item[0].em < em);
+}
+
 static void warned(void *user, tc_level level, const char *text)
 {
     (void)text;
@@ -294,6 +340,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_tick_is_where_its_value_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(the_axes_lie_on_the_outline, set_up, tear_down),
         cmocka_unit_test_setup_teardown(long_texts_are_cut_to_their_place, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_bar_lacks_no_label, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_title_a_little_too_long_is_made_smaller, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_has_no_room_is_left_out_with_a_warning, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
