@@ -150,18 +150,16 @@ static void diagonalize(double a[3][3], double v[3][3])
 /* The gradient of the plane that fits n values at places x best, all alike; the least one. */
 static void fit_plane(double g[3], double x[5][3], const double *value, int n)
 {
-    double middle[3] = {0, 0, 0}, mean = 0, a[3][3] = {{0}}, b[3] = {0, 0, 0}, v[3][3];
-    for (int k = 0; k < n; k++) {
+    double middle[3] = {0, 0, 0}, a[3][3] = {{0}}, b[3] = {0, 0, 0}, v[3][3];
+    for (int k = 0; k < n; k++)
         tc_vec_mul_add(middle, middle, 1.0 / n, x[k]);
-        mean += (value[k] - value[0]) / n; /* differences: equal values give 0 exactly */
-    }
     for (int k = 0; k < n; k++) {
         double d[3];
         tc_vec_sub(d, x[k], middle);
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j < 3; j++)
                 a[i][j] += d[i] * d[j];
-            b[i] += d[i] * (value[k] - value[0] - mean);
+            b[i] += d[i] * (value[k] - value[0]); /* any value: the d add up to 0; of equal ones b is 0 exactly */
         }
     }
     diagonalize(a, v);

@@ -425,13 +425,6 @@ void tc_line_ends(tc_ends *out, const tc_reference *reference, const tc_line *li
     const int *f = face[hit->in], *g = face[hit->out];
     weigh_face(&out->t[0], out->weight[0], p, z, f[0], f[1], f[2]);
     weigh_face(&out->t[1], out->weight[1], p, z, g[0], g[1], g[2]);
-    if (out->t[0] > out->t[1]) {
-        const tc_ends turned = *out;
-        for (int end = 0; end < 2; end++) {
-            out->t[end] = turned.t[1 - end];
-            memcpy(out->weight[end], turned.weight[1 - end], sizeof out->weight[end]);
-        }
-    }
 }
 
 bool tc_line_triangle(double *t, const tc_line *line, const double *vertex, const int32_t id[3], uint32_t salt)

@@ -60,7 +60,8 @@ void tc_line_init(tc_line *out, const tc_reference *reference, const double orig
 tc_status tc_line_trace(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
                         const tc_line *line, double shift, int worker);
 
-/* Where a line passes a cell, uncut: depths t[0] <= t[1], and what each corner, by rank of its id, weighs there. */
+/* Where a line passes a cell, uncut: depths t[0] <= t[1], but for rounding, and what each corner, by rank of its id,
+ * weighs there. */
 typedef struct tc_ends {
     int32_t id[4]; /* ascending */
     double t[2], weight[2][4];

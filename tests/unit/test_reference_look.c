@@ -237,7 +237,7 @@ static void cells_left_out_are_seen_or_others_go_with_them(void **state)
         cells[i] = i % 11 == 3 ? NAN : i % 12 == 7 ? INFINITY : (double)(i % 5);
     const tc_field by_point = {.association = TC_POINT_DATA, .n = m.n_vertex, .value = points};
     const tc_field by_cell = {.association = TC_CELL_DATA, .n = m.n_tet, .value = cells};
-    const double two[2][2] = {{0, 0.5}, {0.25, 0.75}}, ids[2][2] = {{1, 1}, {3, 4}}, all[1][2] = {{-9, 9}};
+    const double two[2][2] = {{0, 0.5}, {0.25, 0.75}}, ids[2][2] = {{1, 1}, {3, 4}}, all[1][2] = {{-9, INFINITY}};
     const double own[1][2] = {{0.2, 0.7}};
     const tc_select select[4] = {{&by_point, 2, two}, {&by_cell, 2, ids}, {NULL, 1, own}, {&by_cell, 1, all}};
     tc_reference *r = reference_of(&m);
@@ -246,7 +246,7 @@ static void cells_left_out_are_seen_or_others_go_with_them(void **state)
         q.n_tet = 0;
         for (size_t i = 0; i < m.n_tet; i++) {
             const int32_t *id = &m.tet[4 * i];
-            bool in[4] = {false, cells[i] == 1 || cells[i] == 3 || cells[i] == 4, true, cells[i] <= 9};
+            bool in[4] = {false, cells[i] == 1 || cells[i] == 3 || cells[i] == 4, true, cells[i] < INFINITY};
             for (int k = 0; k < 2; k++) {
                 bool inside = true;
                 for (int j = 0; j < 4; j++)
@@ -357,6 +357,32 @@ static void colour_field_that_says_nothing_new_changes_the_picture(void **state)
     mesh_free(&m);
 }
 
+/* Rays that run in faces and along edges, where what corners weigh is hard to tell. */
+static void colour_along_edges_is_that_of_another_place(void **state)
+{
+    (void)state;
+    struct tc_mesh m = kuhn_cube(4);
+    linear_field(&m, 0, 0.1, 0.3, 0.55);
+    const tc_field same = {.association = TC_POINT_DATA, .n = m.n_vertex, .value = m.scalar};
+    tc_reference *plain = reference_of(&m), *r = reference_of(&m);
+    look_of(r, &(tc_look){.color_field = &same, .color_function = &ramp});
+    for (int a = -2; a <= 2; a++)
+        for (int b = -2; b <= 2; b++)
+            for (int c = -2; c <= 2; c++)
+                for (int g = 0; g < 27 && (a || b || c); g++) {
+                    double d[3] = {a, b, c}, p[3] = {g % 3 / 8.0 + 0.25, g / 3 % 3 / 8.0 + 0.25, g / 9 / 8.0 + 0.25},
+                           o[3];
+                    tc_vec_normalize(d);
+                    tc_vec_mul_add(o, p, -3, d);
+                    tc_reference_ray x = trace(plain, &ramp, o, d, 0), y = trace(r, &ramp, o, d, 0);
+                    for (int k = 0; k < 4; k++)
+                        NEAR(y.rgba[k], x.rgba[k], 1e-11);
+                }
+    tc_reference_destroy(&plain);
+    tc_reference_destroy(&r);
+    mesh_free(&m);
+}
+
 static void unknown_colour_hides_or_shows_the_wrong_cells(void **state)
 {
     (void)state;
@@ -437,6 +463,7 @@ int main(void)
         cmocka_unit_test(cells_left_out_are_seen_or_others_go_with_them),
         cmocka_unit_test(colour_of_another_field_is_not_that_of_its_integral),
         cmocka_unit_test(colour_field_that_says_nothing_new_changes_the_picture),
+        cmocka_unit_test(colour_along_edges_is_that_of_another_place),
         cmocka_unit_test(unknown_colour_hides_or_shows_the_wrong_cells),
         cmocka_unit_test(what_cannot_be_shown_is_taken),
     };

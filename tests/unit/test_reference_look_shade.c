@@ -306,6 +306,28 @@ static void gradient_at_a_vertex_is_no_mean_by_volume(void **state)
     mesh_free(&m);
 }
 
+/* Corners in the plane z = x + y, exactly, which rounding does not see: no gradient, and no weight in means. */
+static void flat_cell_has_a_gradient_by_rounding(void **state)
+{
+    (void)state;
+    enum { N = 200 };
+    struct tc_mesh m = mesh_alloc(4 * N, N);
+    uint64_t seed = 7;
+    for (int i = 0; i < 4 * N; i++) {
+        double *x = &m.vertex[3 * i];
+        x[0] = ldexp(floor(uniform(&seed, -0x1p40, 0x1p40)), -40);
+        x[1] = ldexp(floor(uniform(&seed, -0x1p40, 0x1p40)), -40);
+        x[2] = x[0] + x[1];
+        m.scalar[i] = uniform(&seed, 0, 1);
+        m.tet[i] = i;
+    }
+    double *cell = gradients(&m, false);
+    for (int t = 0; t < N; t++)
+        near_vector(cell + 3 * t, 0, 0, 0, 0);
+    free(cell);
+    mesh_free(&m);
+}
+
 /* A vertical ray through the lower tet, cut to z = -0.1 … -0.6: it is lit there, not where the cell ends. */
 static void light_on_a_cell_is_not_the_mean_of_that_at_its_two_ends(void **state)
 {
@@ -579,6 +601,7 @@ int main(void)
         cmocka_unit_test(size_of_mesh_or_values_changes_the_light),
         cmocka_unit_test(normals_of_vertices_do_not_become_those_of_a_sphere),
         cmocka_unit_test(gradient_at_a_vertex_is_no_mean_by_volume),
+        cmocka_unit_test(flat_cell_has_a_gradient_by_rounding),
         cmocka_unit_test(light_on_a_cell_is_not_the_mean_of_that_at_its_two_ends),
         cmocka_unit_test(unknown_value_spoils_gradients_around_it),
         cmocka_unit_test(gradient_of_cell_data_is_not_that_of_the_best_plane),
