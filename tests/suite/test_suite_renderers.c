@@ -237,6 +237,28 @@ static void a_z_update_interval_out_of_range_is_taken(void **state)
     tc_renderer_destroy(&renderer);
 }
 
+/* Its sentence comes from tc_look_wrong, before any driver; the judge of pictures asks it, too. */
+static void a_look_that_cannot_be_shown_is_taken(void **state)
+{
+    static const tc_iso twice[2] = {{.value = 0.5, .opacity = 1}, {.value = 0.5, .opacity = 1}};
+    const scene *s = *state;
+    tc_renderer *renderer = suite_renderer(NULL);
+    tc_render_options options = s->options;
+    tc_look look = {.n_iso = 2, .iso = twice};
+    options.look = &look;
+    expect_refusal(s, renderer, &options, (const char *const[]){"two isosurfaces", "0.5", "leave one"});
+    tc_image *image = NULL;
+    tc_verify_result result;
+    tc_error err = {0};
+    assert_int_equal(tc_image_create(&image, options.width, options.height, NULL), TC_OK);
+    assert_int_equal(tc_verify(&result, image, 10, 1, s->mesh, s->tf, &s->camera, &options, NULL, &err), TC_E_ARG);
+    assert_non_null(strstr(err.text, "two isosurfaces"));
+    tc_image_destroy(&image);
+    look = (tc_look){.color_function = s->tf};
+    expect_refusal(s, renderer, &options, (const char *const[]){"function", "no field", "both or neither"});
+    tc_renderer_destroy(&renderer);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -247,6 +269,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(an_unknown_integrator_is_taken),
         cmocka_unit_test(an_unknown_table_format_is_taken),
         cmocka_unit_test(a_z_update_interval_out_of_range_is_taken),
+        cmocka_unit_test(a_look_that_cannot_be_shown_is_taken),
     };
     if (!suite_begin(argc, argv))
         return SUITE_SKIPPED;
