@@ -31,7 +31,13 @@ typedef struct tc_figure {
     bool log;             /* laid over log10; range above 0 */
     bool bar_opacity;     /* a second strip beside it: colours as opaque as the function's opacity, over a checkerboard */
 
-    bool triad;           /* arrows of x, y and z in the lower left corner */
+    /* Values that stand for themselves, as material numbers: the bar is then as many equal bands, from the first to the last,
+     * each in the function's colour at its value and labelled by its name (or by the number); range and log do not count. */
+    size_t n_category;
+    const double *category;           /* [n_category] */
+    const char *const *category_name; /* [n_category], NULL: the numbers; a name may be NULL, too */
+
+    bool triad;           /* the directions of x, y and z, in the lower left corner */
     bool axes;            /* ticks along three edges of the box on the outline of its projection */
     const double *bounds; /* [6] xmin xmax ymin ymax zmin zmax, of the box; needed with axes */
     const tc_camera *camera; /* that the picture was made with; needed with axes and triad */

@@ -9,6 +9,17 @@
 #include <math.h>
 #include <string.h>
 
+enum { MARKS_MAX = 64 };
+
+/* Labelled ticks. */
+typedef struct marks {
+    int n;
+    double at[MARKS_MAX]; /* 0 … 1 along the bar */
+    char text[MARKS_MAX][TC_ITEM_TEXT_SIZE];
+    int n_minor;
+    double minor[TC_TICKS_MINOR_MAX];
+} marks;
+
 typedef struct bar {
     tc_layout *l;
     bool lying;
@@ -57,30 +68,87 @@ static void strip(const bar *b, double across, double width, bool opacity)
     line(b, b->length + h, across, b->length + h, across - width);
 }
 
+/* Labels of every stride-th category; false: one alone is left. */
+static bool mark_categories(marks *m, const bar *b, size_t stride)
+{
+    const tc_figure *f = b->l->figure;
+    memset(m, 0, sizeof *m);
+    for (size_t i = 0; i < f->n_category && m->n < MARKS_MAX; i += stride) {
+        const char *name = f->category_name ? f->category_name[i] : NULL;
+        m->at[m->n] = ((double)i + 0.5) / (double)f->n_category;
+        if (!name || !*name || tc_layout_fit(m->text[m->n], name, b->l->em, 0.22 * b->l->width) <= 0)
+            tc_ticks_write(m->text[m->n], f->category[i]);
+        m->n++;
+    }
+    return m->n > 1;
+}
+
+/* The marks that a bar may have, fewer with each try; false: there are none fewer. */
+static bool mark(marks *m, const bar *b, int fewer)
+{
+    const tc_figure *f = b->l->figure;
+    if (f->n_category > 0)
+        return mark_categories(m, b, f->n_category / MARKS_MAX + 1 + (size_t)fewer);
+    tc_ticks t;
+    tc_ticks_make(&t, b->lo, b->hi, f->log, 7 - fewer);
+    *m = (marks){.n = t.n, .n_minor = t.n_minor};
+    for (int i = 0; i < t.n; i++) {
+        m->at[i] = share(b, t.value[i]);
+        memcpy(m->text[i], t.text[i], sizeof t.text[i]);
+    }
+    for (int i = 0; i < t.n_minor; i++)
+        m->minor[i] = share(b, t.minor[i]);
+    return fewer < 5;
+}
+
 /* Largest size across and along of the labels. */
-static void largest(double out[2], const bar *b, const tc_ticks *t)
+static void largest(double out[2], const bar *b, const marks *m)
 {
     out[0] = out[1] = 0;
-    for (int i = 0; i < t->n; i++) {
+    for (int i = 0; i < m->n; i++) {
         double half[2];
-        tc_layout_half(half, t->text[i], b->l->em, false);
+        tc_layout_half(half, m->text[i], b->l->em, false);
         out[0] = fmax(out[0], 2 * half[b->lying]);
         out[1] = fmax(out[1], 2 * half[!b->lying]);
     }
 }
 
 /* Do labels keep clear of each other? */
-static bool is_clear(const bar *b, const tc_ticks *t)
+static bool is_clear(const bar *b, const marks *m)
 {
-    for (int i = 0; i + 1 < t->n; i++) {
+    for (int i = 0; i + 1 < m->n; i++) {
         double h0[2], h1[2];
-        tc_layout_half(h0, t->text[i], b->l->em, false);
-        tc_layout_half(h1, t->text[i + 1], b->l->em, false);
-        double space = (share(b, t->value[i + 1]) - share(b, t->value[i])) * b->length;
+        tc_layout_half(h0, m->text[i], b->l->em, false);
+        tc_layout_half(h1, m->text[i + 1], b->l->em, false);
+        double space = (m->at[i + 1] - m->at[i]) * b->length;
         if (space < h0[!b->lying] + h1[!b->lying] + 0.6 * b->l->em)
             return false;
     }
     return true;
+}
+
+/* Ticks and labels, those standing at the strip; widest: across the bar. */
+static void lay_marks(const bar *b, const marks *m, double tick, double widest)
+{
+    tc_layout *l = b->l;
+    for (int i = 0; i < m->n; i++) {
+        double x, y, at = m->at[i] * b->length;
+        /* a tick's middle, on whole pixels */
+        double middle = fmin(fmax(floor(at - 0.5 * l->line + 0.5), 0), b->length - l->line) + 0.5 * l->line;
+        line(b, middle, l->line, middle, l->line + tick);
+        place(&x, &y, b, at, l->line + tick + l->gap + 0.5 * widest);
+        if (!b->lying) {
+            double half[2];
+            tc_layout_half(half, m->text[i], l->em, false);
+            x += b->sign * (half[0] - 0.5 * widest);
+        }
+        tc_layout_text(l, m->text[i], l->em, x, y, false);
+    }
+    for (int i = 0; i < m->n_minor; i++) {
+        double at = floor(m->minor[i] * b->length) + 0.5 * l->line;
+        if (at < b->length)
+            line(b, at, l->line, at, l->line + floor(0.6 * tick));
+    }
 }
 
 void tc_layout_bar(tc_layout *l)
@@ -92,10 +160,10 @@ void tc_layout_bar(tc_layout *l)
     b.lo = range[0], b.hi = range[1];
 
     double em = l->em, tick = round(0.35 * em), thick = round(1.2 * em), second = f->bar_opacity ? thick + l->gap : 0;
-    tc_ticks ticks;
+    marks m;
     double size[2];
-    tc_ticks_make(&ticks, b.lo, b.hi, f->log, 7);
-    largest(size, &b, &ticks);
+    mark(&m, &b, 0);
+    largest(size, &b, &m);
     double half_label = 0.5 * size[1], corner = f->triad ? round(5.2 * em) : 0; /* the triad's, lower left */
     if (b.lying) {
         double left = l->margin + corner + fmax(half_label, f->triad ? 0.8 * em : 0),
@@ -108,12 +176,9 @@ void tc_layout_bar(tc_layout *l)
         b.length = floor(fmin(below - above, 0.75 * l->height));
         b.start = round(fmax(fmin(0.5 * (l->height + b.length), below), above + b.length));
     }
-    for (int most = 7; most >= 2; most--) {
-        tc_ticks_make(&ticks, b.lo, b.hi, f->log, most);
-        if (is_clear(&b, &ticks))
-            break;
-    }
-    largest(size, &b, &ticks);
+    for (int fewer = 1; !is_clear(&b, &m) && mark(&m, &b, fewer); fewer++)
+        ;
+    largest(size, &b, &m);
 
     char title[TC_ITEM_TEXT_SIZE] = "";
     double title_em = 0;
@@ -136,24 +201,7 @@ void tc_layout_bar(tc_layout *l)
     strip(&b, 0, thick, false);
     if (f->bar_opacity)
         strip(&b, -thick - l->gap, thick, true);
-    for (int i = 0; i < ticks.n; i++) {
-        double x, y, at = share(&b, ticks.value[i]) * b.length;
-        /* a tick's middle, on whole pixels */
-        double middle = fmin(fmax(floor(at - 0.5 * l->line + 0.5), 0), b.length - l->line) + 0.5 * l->line;
-        line(&b, middle, l->line, middle, l->line + tick);
-        place(&x, &y, &b, at, l->line + tick + l->gap + 0.5 * size[0]);
-        if (!b.lying) { /* numbers stand at the strip */
-            double half[2];
-            tc_layout_half(half, ticks.text[i], em, false);
-            x += b.sign * (half[0] - 0.5 * size[0]);
-        }
-        tc_layout_text(l, ticks.text[i], em, x, y, false);
-    }
-    for (int i = 0; i < ticks.n_minor; i++) {
-        double at = floor(share(&b, ticks.minor[i]) * b.length) + 0.5 * l->line;
-        if (at < b.length)
-            line(&b, at, l->line, at, l->line + floor(0.6 * tick));
-    }
+    lay_marks(&b, &m, tick, size[0]);
     if (title_em > 0) {
         double x, y;
         place(&x, &y, &b, 0.5 * b.length, l->line + tick + l->gap + size[0] + l->gap + 0.65 * em);

@@ -35,6 +35,13 @@ tc_status tc_figure_check(const tc_figure *f, tc_error *err)
         return status;
     if (!f->function)
         return tc_fail(err, TC_E_ARG, "a colour bar needs the transfer function whose colours it shows");
+    if (f->n_category > 0 && !f->category)
+        return tc_fail(err, TC_E_ARG, "a colour bar of %zu categories needs their values", f->n_category);
+    for (size_t i = 0; i < f->n_category; i++)
+        if (!isfinite(f->category[i]))
+            return tc_fail(err, TC_E_ARG, "category %zu of a colour bar is not finite", i);
+    if (f->n_category > 0)
+        return TC_OK;
     double range[2];
     tc_layout_range(range, f);
     if (!(isfinite(range[0]) && isfinite(range[1]) && range[0] <= range[1]))

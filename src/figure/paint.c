@@ -29,7 +29,7 @@ static void put(float *p, const float color[3], float a)
 static float lack(const float *p, float ink)
 {
     float gray = (0.299f * p[0] + 0.587f * p[1] + 0.114f * p[2]) / fmaxf(p[3], 1e-6f);
-    float contrast = fabsf(gray - ink), need = (0.75f - contrast) / 0.35f;
+    float contrast = fabsf(gray - ink), need = (0.65f - contrast) / 0.35f;
     return 0.8f * fminf(fmaxf(need, 0), 1) * fminf(fmaxf(p[3], 0), 1);
 }
 
@@ -137,6 +137,8 @@ static void paint_strip(const painter *p, const tc_item *item)
     for (int i = 0; i < length; i++) {
         double u = (i + 0.5) / length, v[4];
         double s = f->log ? exp((1 - u) * log(range[0]) + u * log(range[1])) : (1 - u) * range[0] + u * range[1];
+        if (f->n_category > 0)
+            s = f->category[(size_t)(u * (double)f->n_category)];
         tc_transfer_evaluate(v, f->function, s);
         float a = item->opacity ? (float)fmin(fmax(v[3], 0), 1) : 1;
         for (int j = 0; j < thick; j++) {

@@ -83,6 +83,13 @@ static void write_all(tc_ticks *t, double scale)
         write_number(t->text[i], t->value[i], decimals, scientific, true);
 }
 
+void tc_ticks_write(char *out, double value)
+{
+    tc_ticks one = {.n = 1, .value = {value}};
+    write_all(&one, 0);
+    memcpy(out, one.text[0], sizeof one.text[0]);
+}
+
 /* Multiples of step in [lo, hi]; counts all, keeps TC_TICKS_MAX. The ends hold to a billionth of the step. */
 static int multiples(double *value, double lo, double hi, double step)
 {

@@ -19,4 +19,7 @@ typedef struct tc_ticks {
  * doubles between lo and hi are too few. lo = hi, or nearly so: that one value. lo > 0 with log. */
 void tc_ticks_make(tc_ticks *out, double lo, double hi, bool log, int most);
 
+/* One number by itself, written alike; out [TC_TICK_TEXT]. */
+void tc_ticks_write(char *out, double value);
+
 #endif

@@ -339,6 +339,51 @@ static void the_bar_has_the_functions_colours_at_its_ticks(void **state)
     free(l);
 }
 
+static void categories_are_equal_bands_with_their_names(void **state)
+{
+    static const double value[] = {-1, 0.5, 1.5, 3, 17};
+    static const char *const name[] = {"air", "steel", NULL, "",
+                                       "a very long name of a material indeed, with more words"};
+    static const char *const wanted[] = {"air", "steel", "1.5", "3", "a very lon"};
+    scene *s = *state;
+    tc_layout *l = malloc(sizeof *l);
+    s->figure.n_category = 5, s->figure.category = value, s->figure.category_name = name;
+    s->figure.axes = s->figure.bar_opacity = false;
+    draw(s);
+    assert_int_equal(tc_layout_make(l, &s->figure, 480, 360, NULL, NULL), TC_OK);
+    int strips = 0, found = 0;
+    for (int i = 0; i < l->n; i++) {
+        const tc_box *b = &l->item[i].box;
+        for (int k = 0; k < 5 && l->item[i].kind == TC_ITEM_TEXT; k++)
+            found += !strncmp(l->item[i].text, wanted[k], strlen(wanted[k]));
+        if (l->item[i].kind != TC_ITEM_STRIP)
+            continue;
+        strips++;
+        for (int y = (int)b->y0; y < b->y1; y++) {
+            double v[4], u = (b->y1 - y - 0.5) / (b->y1 - b->y0);
+            tc_transfer_evaluate(v, s->function, value[(int)(5 * u)]);
+            for (int c = 0; c < 3; c++)
+                assert_true(fabs(at(s->image, (int)b->x0 + 2, y)[c] - v[c]) < 1e-6);
+        }
+    }
+    assert_int_equal(strips, 1);
+    assert_int_equal(found, 5);
+    /* more than can be labelled: every so many are */
+    double many[500];
+    for (int i = 0; i < 500; i++)
+        many[i] = i;
+    s->figure.n_category = 500, s->figure.category = many, s->figure.category_name = NULL;
+    for (int bar = TC_BAR_RIGHT; bar <= TC_BAR_BOTTOM; bar++) {
+        s->figure.bar = (tc_bar)bar;
+        assert_int_equal(tc_layout_make(l, &s->figure, 480, 360, NULL, NULL), TC_OK);
+        int labels = 0;
+        for (int i = 1; i < l->n; i++)
+            labels += l->item[i].kind == TC_ITEM_TEXT && l->item[i - 1].kind == TC_ITEM_LINE && !l->item[i - 1].hue;
+        assert_true(labels > 5 && labels < 30);
+    }
+    free(l);
+}
+
 static void the_opacity_strip_shows_the_board_where_it_is_transparent(void **state)
 {
     scene *s = *state;
@@ -417,8 +462,8 @@ static void what_cannot_be_drawn_is_refused_and_changes_nothing(void **state)
     static const double flipped[] = {2, -1, 0, 1, 0, 1};
     tc_camera blind = s->camera;
     memcpy(blind.focal_point, blind.position, sizeof blind.position);
-    tc_figure bad[9];
-    for (size_t i = 0; i < 9; i++)
+    tc_figure bad[11];
+    for (size_t i = 0; i < 11; i++)
         bad[i] = good;
     bad[0].function = NULL;
     bad[1].camera = NULL;
@@ -428,8 +473,10 @@ static void what_cannot_be_drawn_is_refused_and_changes_nothing(void **state)
     bad[5].has_range = true, bad[5].range[0] = 1, bad[5].range[1] = 0;
     bad[6].log = true; /* the function begins at 0 */
     bad[7].text_size = -3;
+    bad[9].n_category = 2;
+    bad[10].n_category = 1, bad[10].category = (const double[]){INFINITY};
     bad[8].has_range = true, bad[8].range[1] = NAN;
-    for (size_t i = 0; i < 9; i++) {
+    for (size_t i = 0; i < 11; i++) {
         tc_error err = {0};
         assert_int_equal(tc_figure_draw(s->image, &bad[i], NULL, &err), TC_E_ARG);
         assert_true(strlen(err.text) > 20);
@@ -450,6 +497,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(pixels_change_at_items_alone, set_up, tear_down),
         cmocka_unit_test_setup_teardown(ink_is_as_much_as_letters_have, set_up, tear_down),
         cmocka_unit_test_setup_teardown(the_bar_has_the_functions_colours_at_its_ticks, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(categories_are_equal_bands_with_their_names, set_up, tear_down),
         cmocka_unit_test_setup_teardown(the_opacity_strip_shows_the_board_where_it_is_transparent, set_up, tear_down),
         cmocka_unit_test_setup_teardown(ink_follows_the_background, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_transparent_picture_stays_premultiplied, set_up, tear_down),
