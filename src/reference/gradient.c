@@ -40,24 +40,29 @@ static void keep_finite(double g[3])
         g[0] = g[1] = g[2] = 0;
 }
 
-/* Of the linear interpolation: the plane through the four values. */
+/* Of the linear interpolation: the plane through the four values. In long double, from the mesh's own coordinates: the
+ * volume of a thin tet is a small difference. */
 static void gradient_of_points(double g[3], const tc_reference *r, size_t tet)
 {
     const int32_t *id = &r->mesh->tet[4 * tet];
-    const double *value = r->mesh->scalar;
-    double e[3][3], n[3];
+    const double *value = r->mesh->scalar, *x = r->mesh->vertex;
+    double rough[3][3];
+    long double e[3][3], sum[3] = {0, 0, 0}, volume = 0;
     g[0] = g[1] = g[2] = 0;
-    if (six_volumes(e, r, tet) == 0)
+    if (six_volumes(rough, r, tet) == 0)
         return;
-    double sum[3] = {0, 0, 0};
-    for (int k = 0; k < 3; k++) {
-        tc_vec_cross(n, e[(k + 1) % 3], e[(k + 2) % 3]);
-        tc_vec_mul_add(sum, sum, value[id[k + 1]] - value[id[0]], n);
-    }
-    tc_vec_cross(n, e[0], e[1]);
-    double volume = tc_vec_dot(n, e[2]);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            e[k][i] = ((long double)x[3 * (size_t)id[k + 1] + (size_t)i] - x[3 * (size_t)id[0] + (size_t)i]) * r->scale;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) {
+            const long double *p = e[(k + 1) % 3], *q = e[(k + 2) % 3];
+            long double n = p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3];
+            sum[i] += ((long double)value[id[k + 1]] - value[id[0]]) * n;
+            volume += k == 2 ? n * e[2][i] : 0;
+        }
     for (int i = 0; i < 3; i++)
-        g[i] = sum[i] / volume;
+        g[i] = (double)(sum[i] / volume);
     keep_finite(g); /* values that are not finite, too */
 }
 

@@ -53,8 +53,11 @@ tc_status tc_judge_create(tc_judge **out, const tc_judge_view *view, tc_error *e
         return status;
     }
     tc_reference_set_nan_color(j->reference, o->has_nan_color ? o->nan_color : NULL);
+    status = tc_reference_set_look(j->reference, o->look, err);
+    if (status != TC_OK)
+        tc_judge_destroy(&j);
     *out = j;
-    return TC_OK;
+    return status;
 }
 
 void tc_judge_destroy(tc_judge **judge)

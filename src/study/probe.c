@@ -29,6 +29,9 @@ static tc_status make_truth(tc_truth **out, const tc_rays *rays, double unit, in
     if (status != TC_OK)
         return status;
     tc_reference_set_nan_color(p->reference, p->fixed->has_nan_color ? p->fixed->nan_color : NULL);
+    status = tc_reference_set_look(p->reference, p->fixed->look, err);
+    if (status != TC_OK)
+        return status;
     const tc_truth_view view = {.reference = p->reference,
                                 .tf = p->tf,
                                 .unit = unit,

@@ -328,6 +328,36 @@ static void flat_cell_has_a_gradient_by_rounding(void **state)
     mesh_free(&m);
 }
 
+/* As thin as 2^-44, all that is given exact: a linear field's gradient is to be found to the fourth digit. */
+static void thin_cell_has_a_gradient_by_rounding(void **state)
+{
+    (void)state;
+    enum { N = 200 };
+    struct tc_mesh m = mesh_alloc(4 * N, N);
+    uint64_t seed = 8;
+    for (int i = 0; i < 4 * N; i++) {
+        double *x = &m.vertex[3 * i];
+        x[0] = ldexp(floor(uniform(&seed, 0, 0x1p44)), -44) + (i % 4 == 1);
+        x[1] = ldexp(floor(uniform(&seed, 0, 0x1p44)), -44) + (i % 4 == 2);
+        x[2] = x[0] + x[1] + (i % 4 == 3 ? 0x1p-44 : 0);
+        m.scalar[i] = 2 * x[0] - x[1] + 3 * x[2];
+        m.tet[i] = i;
+    }
+    double *cell = gradients(&m, false);
+    int thin = 0;
+    for (int t = 0; t < N; t++) {
+        const double *x = &m.vertex[12 * t];
+        double area = (x[3] - x[0]) * (x[7] - x[1]) - (x[4] - x[1]) * (x[6] - x[0]);
+        if (fabs(area) < 0.3)
+            continue;
+        near_vector(cell + 3 * t, 2, -1, 3, 1e-4);
+        thin++;
+    }
+    assert_true(thin > N / 2);
+    free(cell);
+    mesh_free(&m);
+}
+
 /* A vertical ray through the lower tet, cut to z = -0.1 … -0.6: it is lit there, not where the cell ends. */
 static void light_on_a_cell_is_not_the_mean_of_that_at_its_two_ends(void **state)
 {
@@ -602,6 +632,7 @@ int main(void)
         cmocka_unit_test(normals_of_vertices_do_not_become_those_of_a_sphere),
         cmocka_unit_test(gradient_at_a_vertex_is_no_mean_by_volume),
         cmocka_unit_test(flat_cell_has_a_gradient_by_rounding),
+        cmocka_unit_test(thin_cell_has_a_gradient_by_rounding),
         cmocka_unit_test(light_on_a_cell_is_not_the_mean_of_that_at_its_two_ends),
         cmocka_unit_test(unknown_value_spoils_gradients_around_it),
         cmocka_unit_test(gradient_of_cell_data_is_not_that_of_the_best_plane),
