@@ -11,7 +11,11 @@ const tc_effect *const tc_effect_table[] = {
     &tc_effect_average,
     &tc_effect_surfaces,
     &tc_effect_clip,
+    &tc_effect_light,
+    &tc_effect_gradient,
+    &tc_effect_shade, /* before what stands at the ends of parts */
     &tc_effect_iso,
     &tc_effect_color_field,
+    &tc_effect_shade_iso, /* behind what colours them */
     NULL,
 };

@@ -49,7 +49,7 @@ uvec4 audit_end()
 
 // One step, and its share of the picture, which integral_round may still have to add.
 void march_step(inout Walk w, Ray ray, inout Integral integral)
-{
+{ //@then march_before
 #ifdef AUDIT
     audit.broken += walk_holding_faces(w) == 2u ? 0u : 1u;
 #endif

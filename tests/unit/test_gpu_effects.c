@@ -101,7 +101,7 @@ static bool look_of(tc_look *look, const tc_transfer **tf, const char *name, con
     } else if (strcmp(name, "select") == 0) {
         look->n_select = 1;
         look->select = &l->select;
-    } else if (strncmp(name, "shade", 5) == 0 || strncmp(name, "light", 5) == 0) {
+    } else if (strncmp(name, "shade", 5) == 0 || strncmp(name, "light", 5) == 0 || strncmp(name, "gradient", 8) == 0) {
         tc_shade_defaults(&look->shade);
         look->shade.gradient = strstr(name, "vert") ? TC_GRADIENT_VERTEX : TC_GRADIENT_CELL;
         look->shade.surfaces = strstr(name, "iso") || strstr(name, "surf");

@@ -23,6 +23,9 @@ int iso_next()
 //@section part_begin
     iso_at = iso_below(segment.s0);
     iso_to = segment.real ? iso_below(segment.s1) : iso_at;
+#ifdef CLIP_NEAR
+    iso_to = segment.z1 > ray.near ? iso_to : iso_at; // nothing before it is seen
+#endif
 
 //@section part_cut
     float iso_share = (iso_value[iso_next()] - parts.whole.s0) / (parts.whole.s1 - parts.whole.s0);

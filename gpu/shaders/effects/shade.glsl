@@ -1,0 +1,58 @@
+// shade.glsl: light on a volume: the mean of what it makes of a colour at the two ends of the ray's part in a cell holds for
+// all that this part adds to the ray.
+
+//@section parts_declare
+uniform float shade_soft; // gradients far below it leave colours as they are
+float shade_kept_soft = 0.0;
+Light shade_light = LIGHT_NONE; // on the part
+#ifdef GRADIENT_VERTEX
+Light shade_face = LIGHT_NONE; // where the ray meets the walk's face
+#endif
+vec3 shade_rgb = vec3(0.0); // what the ray gathered before
+float shade_clear = 1.0;
+
+// For a gradient g; `inverse` is 1 over its length.
+Light shade_of(vec3 g, float inverse, Ray ray)
+{
+    Light light = light_of(g * -inverse, ray, SHADE_ONE_SIDED);
+    float m = 1.0 / (1.0 + shade_kept_soft * inverse);
+    bool none = !(inverse > 0.0 && inverse < 1.0e30); // 0, or not finite
+    light.gain = none ? LIGHT_NONE.gain : 1.0 + m * (light.gain - 1.0);
+    light.glow = none ? LIGHT_NONE.glow : m * light.glow;
+    return light;
+}
+
+#ifdef GRADIENT_VERTEX
+Light shade_of(vec3 g, Ray ray)
+{
+    return shade_of(g, inversesqrt(dot(g, g)), ray);
+}
+#endif
+
+//@section march_begin
+    shade_kept_soft = keep(shade_soft);
+#ifdef GRADIENT_VERTEX
+    shade_face = shade_of(gradient_face, ray);
+#endif
+
+//@section part_begin
+#ifdef GRADIENT_VERTEX
+    Light shade_from = shade_face;
+#ifdef CLIP_NEAR
+    if (segment.z0 > gradient_z0)
+        shade_from = shade_of(gradient_from, ray);
+#endif
+    shade_face = shade_of(gradient_to, ray);
+    shade_light.gain = 0.5 * (shade_from.gain + shade_face.gain);
+    shade_light.glow = 0.5 * (shade_from.glow + shade_face.glow);
+#else
+    shade_light = shade_of(gradient_cell.xyz, 1.0 / gradient_cell.w, ray);
+#endif
+
+//@section part_cut
+    shade_rgb = integral.sum.rgb;
+    shade_clear = integral.sum.transmittance;
+
+//@section part_done
+                integral.sum.rgb = shade_rgb + (integral.sum.rgb - shade_rgb) * shade_light.gain +
+                                   shade_light.glow * (shade_clear - integral.sum.transmittance);
