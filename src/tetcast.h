@@ -335,6 +335,11 @@ TC_API void tc_image_background(tc_image *image, const float *rgba);
 TC_API tc_status tc_image_write(const tc_image *image, const char *path, const tc_text_pair *meta, size_t n,
                                 const tc_log *log, tc_error *err);
 TC_API tc_status tc_image_read(tc_image **out, const char *path, tc_error *err);
+/* The text that a picture carries under a key of its metadata ("tetcast:" before it does not count), UTF-8, from malloc;
+ * NULL: it carries none.
+ * Errors: as tc_image_read; a PNG file that is cut short carries what is there. Cost: reads the file; of other formats as
+ * tc_image_read. */
+TC_API tc_status tc_image_read_text(char **out, const char *path, const char *key, tc_error *err);
 
 /* Writes any number of pictures. PNG is encoded in this process; other formats by a helper program, which needs 0.2 s to
  * start and stays for the next ones. Not for two threads at a time. */
