@@ -2,9 +2,7 @@
 #include "cli/render_choose.h"
 #include "cli/render_picture.h"
 #include "cli/render_sequence.h"
-
-#include <math.h>
-#include <stdlib.h>
+#include "cli/render_setup.h"
 
 static int tc_stats_write(tc_render_run *run, tc_talk *talk)
 {
@@ -22,7 +20,7 @@ static int tc_stats_write(tc_render_run *run, tc_talk *talk)
 /* From a prepared mesh to files. */
 static int tc_render_do(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
 {
-    int code = tc_render_ready(run, frames, run->report.scalar_range, talk);
+    int code = tc_render_ready(frames, talk);
     if (code >= 0)
         return code;
     code = tc_render_picture(run, frames, talk, argc, argv);
@@ -36,23 +34,14 @@ static int tc_render_do(tc_render_run *run, tc_frames *frames, tc_talk *talk, in
 static int tc_render_one(const tc_render_command *options, tc_talk *talk, int argc, char **argv)
 {
     tc_frames frames;
-    tc_render_run run = {.options = options, .ms_read = NAN, .ms_write = NAN, .ms_total = NAN};
+    tc_render_run run = {0};
     int code = tc_frames_make(&frames, options, talk);
     if (code < 0)
-        code = tc_input_open(&run.mesh, &run.seen, &options->source, options->input, talk);
-    if (run.mesh)
-        tc_source_notes_say(run.mesh, options->input, talk);
-    if (code < 0) {
-        run.ms_read = run.seen.ms_read;
-        tc_mesh_get_report(&run.report, run.mesh);
-        tc_nonfinite_say(&run, talk);
+        code = tc_render_open(&run, options, talk);
+    if (code < 0)
         code = tc_render_do(&run, &frames, talk, argc, argv);
-    }
-    tc_image_destroy(&run.image);
-    tc_image_destroy(&run.errors);
     tc_frames_finish(&frames);
-    tc_transfer_destroy(&run.tf);
-    tc_mesh_destroy(&run.mesh);
+    tc_render_close(&run);
     return code;
 }
 
@@ -73,5 +62,6 @@ int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, ch
     if (code < 0)
         code = options.steps.there ? tc_render_sequence(&options, talk, argc, argv)
                                    : tc_render_one(&options, talk, argc, argv);
+    tc_render_command_finish(&options);
     return code < 0 ? TC_EXIT_DONE : code;
 }

@@ -35,7 +35,7 @@ typedef struct tc_study_names {
     char text[TC_STUDY_FUNCTIONS][32];
 } tc_study_names;
 
-static const char tc_given[] = "given";
+static const char tc_standard_given[] = "given";
 static const char *const tc_study_builtin[] = {"synth:heatsink", "synth:bluntfin", "synth:kuhn", "synth:ball"};
 
 static const tc_choice tc_gl_choice[] = {{"auto", 0, false}, {"osmesa", 1, false}, {"egl", 2, false}, {NULL, 0, false}};
@@ -101,7 +101,7 @@ static int tc_study_functions(tc_study_names *out, const tc_study_command *optio
     int code = -1;
     out->n = 0;
     if (given)
-        out->name[out->n++] = tc_given;
+        out->name[out->n++] = tc_standard_given;
     for (size_t i = 0; i < n && !given && !options->functions; i++)
         out->name[out->n++] = standard[i].name;
     for (const char *at = options->functions; at && code < 0;) {
@@ -258,7 +258,7 @@ static int tc_study_transfer(tc_transfer **out, const char *name, const tc_study
     double range[2] = {report.scalar_range[0], report.scalar_range[1]};
     if (o->has_range)
         memcpy(range, o->range, sizeof range);
-    if (strcmp(name, tc_given) != 0) {
+    if (strcmp(name, tc_standard_given) != 0) {
         tc_status status = tc_transfer_standard(out, name, range, &err);
         return status ? tc_talk_status(talk, status, &err) : -1;
     }

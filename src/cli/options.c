@@ -125,7 +125,7 @@ static int tc_value_set(char *values, tc_talk *talk, const tc_option *option, co
     void *field = values + option->at;
     char why[64] = "";
     bool good = false;
-    int number = 0, found = tc_choice_find(&number, option->choice, text);
+    int number = 0, found = text ? tc_choice_find(&number, option->choice, text) : 0;
     double real;
     uint64_t big;
 
@@ -155,6 +155,11 @@ static int tc_value_set(char *values, tc_talk *talk, const tc_option *option, co
             *(uint64_t *)field = big;
         break;
     case TC_OPTION_REAL:
+        if (option->optional && !text) {
+            *(double *)field = option->high;
+            good = true;
+            break;
+        }
         good = found || (tc_parse_real(&real, text) && tc_in_bounds(option, real));
         if (good)
             *(double *)field = found ? (double)number : real;
@@ -177,25 +182,104 @@ static int tc_value_set(char *values, tc_talk *talk, const tc_option *option, co
     return -1;
 }
 
+/* ------------------------------------------------------------------------------------------------- what was given */
+
+/* Notes an option that was set. */
+static int tc_given_add(tc_given_list *list, tc_talk *talk, const tc_option *option, const char *text)
+{
+    size_t at = list->n;
+    for (size_t i = 0; i < list->n && !option->repeat; i++)
+        if (list->item[i].option == option)
+            at = i;
+    if (at == list->n) {
+        tc_given *more = realloc(list->item, (list->n + 1) * sizeof *more);
+        if (!more) {
+            tc_talk_error(talk, "memory ran out");
+            return TC_EXIT_FAILED;
+        }
+        list->item = more;
+        list->n++;
+    }
+    list->item[at] = (tc_given){option, text};
+    return -1;
+}
+
+bool tc_is_given(const tc_given_list *list, const char *name)
+{
+    for (size_t i = 0; i < list->n; i++)
+        if (!strcmp(list->item[i].option->name, name))
+            return true;
+    return false;
+}
+
+void tc_given_finish(tc_given_list *list)
+{
+    free(list->item);
+    *list = (tc_given_list){0};
+}
+
 /* ------------------------------------------------------------------------------------------------- whole command */
 
-/* Finds an option by its long name of that length, or by its letter. *common tells which struct it writes to. */
-static const tc_option *tc_option_find(bool *common, const tc_command *command, const char *name, size_t length,
+/* A table of options and where the struct of its values lies in the command's. */
+typedef struct tc_table_of {
+    const tc_option *option;
+    size_t n, at;
+} tc_table_of;
+enum { TC_TABLES = 3 }; /* the last: options of every command */
+
+static tc_table_of tc_option_table(const tc_command *command, int i)
+{
+    switch (i) {
+    case 0:
+        return (tc_table_of){command->option, command->n_option, 0};
+    case 1:
+        return (tc_table_of){command->also, command->n_also, command->also_at};
+    default:
+        return (tc_table_of){tc_common_option, TC_N_COMMON, 0};
+    }
+}
+
+/* Finds an option by its long name of that length, or by its letter. *table tells in which table it is. */
+static const tc_option *tc_option_find(int *table, const tc_command *command, const char *name, size_t length,
                                        char letter)
 {
-    for (size_t pass = 0; pass < 2; pass++) {
-        const tc_option *table = pass ? tc_common_option : command->option;
-        size_t n = pass ? TC_N_COMMON : command->n_option;
-        for (size_t i = 0; i < n; i++) {
+    for (int k = 0; k < TC_TABLES; k++) {
+        const tc_table_of t = tc_option_table(command, k);
+        for (size_t i = 0; i < t.n; i++) {
+            const tc_option *option = &t.option[i];
             bool by_name =
-                name && table[i].name && strlen(table[i].name) == length && !memcmp(table[i].name, name, length);
-            if (by_name || (letter && table[i].letter == letter)) {
-                *common = pass == 1;
-                return &table[i];
+                name && option->name && strlen(option->name) == length && !memcmp(option->name, name, length);
+            if (by_name || (letter && option->letter == letter)) {
+                *table = k;
+                return option;
             }
         }
     }
     return NULL;
+}
+
+const tc_option *tc_command_option(const tc_command *command, const char *name)
+{
+    int table;
+    const tc_option *option = tc_option_find(&table, command, name, strlen(name), 0);
+    return option && table < TC_TABLES - 1 ? option : NULL;
+}
+
+int tc_option_set(void *values, tc_talk *talk, const tc_command *command, const tc_option *option, const char *called,
+                  const char *text)
+{
+    int code = -1, table = 0;
+    tc_option named = *option;
+    tc_option_find(&table, command, option->name, strlen(option->name), 0);
+    char *base = (char *)values + tc_option_table(command, table).at;
+    named.name = called;
+    if (option->kind == TC_OPTION_FLAG)
+        *(bool *)(base + option->at) = strcmp(text, "off") != 0;
+    else
+        code = tc_value_set(base, talk, &named, text);
+    if (code < 0 && command->given)
+        code = tc_given_add((tc_given_list *)((char *)values + command->given - 1), talk, option, text);
+    return code;
 }
 
 static int tc_refuse_option(tc_talk *talk, const tc_command *command, const char *text, size_t length)
@@ -203,51 +287,64 @@ static int tc_refuse_option(tc_talk *talk, const tc_command *command, const char
     char name[64];
     tc_nearest search = {.name = name};
     snprintf(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), text);
-    for (size_t i = 0; i < command->n_option; i++)
-        if (command->option[i].name && command->option[i].kind != TC_OPTION_LATER)
-            tc_nearest_offer(&search, command->option[i].name);
-    for (size_t i = 0; i < TC_N_COMMON; i++)
-        if (tc_common_option[i].name)
-            tc_nearest_offer(&search, tc_common_option[i].name);
+    for (int k = 0; k < TC_TABLES; k++) {
+        const tc_table_of t = tc_option_table(command, k);
+        for (size_t i = 0; i < t.n; i++)
+            if (t.option[i].name && t.option[i].kind != TC_OPTION_LATER)
+                tc_nearest_offer(&search, t.option[i].name);
+    }
     tc_talk_error(talk, "%s has no option '%s'; the nearest is '%s' (tetcast %s --help lists them)", command->name,
                   name, search.best, command->name);
     return TC_EXIT_USAGE;
 }
 
+/* Is the word one of the command's long options? */
+static bool tc_is_option(const tc_command *command, const char *word)
+{
+    int table;
+    return !strncmp(word, "--", 2) && tc_option_find(&table, command, word, strcspn(word, "="), 0);
+}
+
 /* Reads the option at argv[*i], and its value; moves *i onto the last word used. */
-static int tc_option_read(char *values, tc_common *common, tc_talk *talk, const tc_command *command, int *i, int argc,
+static int tc_option_read(void *values, tc_common *common, tc_talk *talk, const tc_command *command, int *i, int argc,
                           char **argv)
 {
-    const char *text = argv[*i], *value = NULL;
-    bool is_common = false, is_long = text[1] == '-';
+    const char *text = argv[*i], *value = NULL, *next = *i + 1 < argc ? argv[*i + 1] : NULL;
+    double number;
+    int table = 0;
+    bool is_long = text[1] == '-';
     size_t length = is_long ? strcspn(text, "=") : 2;
-    const tc_option *option = tc_option_find(&is_common, command, is_long ? text : NULL, length, is_long ? 0 : text[1]);
+    const tc_option *option = tc_option_find(&table, command, is_long ? text : NULL, length, is_long ? 0 : text[1]);
     if (!option)
         return tc_refuse_option(talk, command, text, length);
     if (text[length])
         value = text + length + (is_long ? 1 : 0);
-    if (option->kind == TC_OPTION_FLAG) {
-        if (value) {
-            tc_talk_error(talk, "%s takes no value, but '%s' was given", option->name, text);
-            return TC_EXIT_USAGE;
-        }
-        char *base = is_common ? (char *)common : values;
-        *(bool *)(base + option->at) = true;
+    if (option->kind == TC_OPTION_FLAG && value && (table == TC_TABLES - 1 || strcmp(value, "off") != 0)) {
+        tc_talk_error(talk, "%s takes no value, but '%s' was given", option->name, text);
+        return TC_EXIT_USAGE;
+    }
+    if (table == TC_TABLES - 1) {
+        *(bool *)((char *)common + option->at) = true;
         return -1;
     }
-    if (option->kind == TC_OPTION_LATER)
-        return tc_value_set(values, talk, option, "");
-    if (!value) {
-        bool dummy;
-        const char *next = *i + 1 < argc ? argv[*i + 1] : NULL;
-        if (!next || (!strncmp(next, "--", 2) && tc_option_find(&dummy, command, next, strcspn(next, "="), 0))) {
+    if (option->kind == TC_OPTION_FLAG) {
+        value = value ? value : "on";
+    } else if (option->kind == TC_OPTION_LATER) {
+        value = "";
+    } else if (option->optional && !value) {
+        if (next && tc_parse_real(&number, next)) {
+            value = next;
+            ++*i;
+        }
+    } else if (!value) {
+        if (!next || tc_is_option(command, next)) {
             tc_talk_error(talk, "%s needs a value: %s", option->name, option->value);
             return TC_EXIT_USAGE;
         }
         value = next;
         ++*i;
     }
-    return tc_value_set(values, talk, option, value);
+    return tc_option_set(values, talk, command, option, option->name, value);
 }
 
 int tc_options_parse(void *values, const char **argument, int *n_argument, tc_talk *talk, const tc_command *command,
@@ -331,7 +428,7 @@ static void tc_help_wrap(const char *text, int from)
 static void tc_help_option(const tc_option *option)
 {
     char left[160];
-    if (option->kind == TC_OPTION_LATER)
+    if (option->kind == TC_OPTION_LATER || option->kind == TC_OPTION_ALSO)
         return;
     if (option->kind == TC_OPTION_HEADING) {
         printf("\n%s:\n", option->help);
@@ -359,8 +456,11 @@ void tc_command_help(const tc_command *command)
         putchar('\n');
         tc_help_wrap(command->about, 0);
     }
-    for (size_t i = 0; i < command->n_option; i++)
+    for (size_t i = 0; i < command->n_option; i++) {
         tc_help_option(&command->option[i]);
+        for (size_t k = 0; k < command->n_also && command->option[i].kind == TC_OPTION_ALSO; k++)
+            tc_help_option(&command->also[k]);
+    }
     for (size_t i = 0; i < TC_N_COMMON; i++)
         tc_help_option(&tc_common_option[i]);
 }

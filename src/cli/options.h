@@ -1,7 +1,7 @@
 /* options.h: a command and its options as a constant table; parsing and --help are made from it.
  *
  * Every command also knows --quiet, --verbose, --help and --version. `--name VALUE`, `--name=VALUE`, `-o VALUE` and
- * `-oVALUE` are the same; `--` ends the options. The last of two equal options holds. */
+ * `-oVALUE` are the same; `--` ends the options. The last of two equal options holds, but for those that add up. */
 #ifndef TC_CLI_OPTIONS_H
 #define TC_CLI_OPTIONS_H
 
@@ -18,6 +18,7 @@ typedef enum tc_option_kind {
     TC_OPTION_REALS,       /* double[n], comma separated, low..high */
     TC_OPTION_CHOICE,      /* int: the value of one of choice */
     TC_OPTION_CUSTOM,      /* parse() writes it */
+    TC_OPTION_ALSO,        /* no option: --help prints the command's other table here */
     TC_OPTION_LATER        /* known, but not in this version: refused with a sentence; not in --help */
 } tc_option_kind;
 
@@ -37,11 +38,25 @@ typedef struct tc_option {
     size_t has;       /* offset of a bool there, plus 1, that is set; 0: none */
     double low, high; /* bounds; low == high: none */
     bool open;        /* low itself is not allowed */
+    bool optional;    /* of TC_OPTION_REAL: the value may be left out, and is `high` then */
+    bool repeat;      /* of TC_OPTION_CUSTOM: may be given again, and adds up */
     int n;            /* of TC_OPTION_REALS */
     const tc_choice *choice;
     /* Writes to field; false when text is wrong, and *why (64 bytes) may say more. */
     bool (*parse)(void *field, const char *text, char *why);
 } tc_option;
+
+/* An option as it was given. */
+typedef struct tc_given {
+    const tc_option *option;
+    const char *text; /* borrowed; "on" or "off" of a flag; NULL: an optional value was left out */
+} tc_given;
+
+/* What was given, in order; of an option that does not repeat the last. tc_given_finish ends it. */
+typedef struct tc_given_list {
+    size_t n;
+    tc_given *item;
+} tc_given_list;
 
 struct tc_command;
 typedef int tc_command_run(tc_talk *talk, const struct tc_command *command, int argc, char **argv);
@@ -51,14 +66,27 @@ typedef struct tc_command {
     const char *about;                   /* more, before the options; may be NULL */
     const tc_option *option;
     size_t n_option;
+    const tc_option *also; /* a second table, of the struct that lies at also_at in the command's; NULL: none */
+    size_t n_also, also_at;
+    size_t given;        /* offset of a tc_given_list in the command's struct, plus 1, that is filled; 0: none */
     int least, most;     /* number of arguments that are no options */
     tc_command_run *run; /* argv[0] is the command's name; gives the exit code */
 } tc_command;
 
-/* Parses argv[1..argc) into values. argument [command->most] gets the others, *n_argument their count.
- * Gives -1 to go on, else the exit code to end with (--help, --version, or an error that was printed). */
+/* Parses argv[1..argc) into values, over what is in it. A flag may be written --flag=off. argument [command->most] gets
+ * the others, *n_argument their count. Gives -1 to go on, else the exit code to end with (--help, --version, or an
+ * error that was printed). */
 int tc_options_parse(void *values, const char **argument, int *n_argument, tc_talk *talk, const tc_command *command,
                      int argc, char **argv);
+
+/* One option by its whole name, of the command's own tables; NULL: there is none. */
+const tc_option *tc_command_option(const tc_command *command, const char *name);
+/* Sets an option of the command's own tables as if it had been given with that text; called says how errors name it.
+ * text NULL: an optional value is left out; "on" and "off" set a flag. The same codes. */
+int tc_option_set(void *values, tc_talk *talk, const tc_command *command, const tc_option *option, const char *called,
+                  const char *text);
+bool tc_is_given(const tc_given_list *list, const char *name);
+void tc_given_finish(tc_given_list *list);
 
 void tc_command_help(const tc_command *command);
 void tc_version_print(void);

@@ -13,10 +13,6 @@
 #define AT(member) .at = offsetof(tc_render_command, member)
 #define HAS(member) .has = offsetof(tc_render_command, member) + 1
 
-static const tc_choice tc_model_choice[] = {
-    {"density-emitter", 0, false}, {"emission", 1, true}, {"absorption", 2, true}, {"mip", 3, true},
-    {"isosurface", 4, true},       {NULL, 0, false},
-};
 static const tc_choice tc_integrator_choice[] = {
     {"auto", TC_INTEGRATOR_AUTO, false},
     {"table", TC_INTEGRATOR_TABLE, false},
@@ -171,7 +167,7 @@ static bool tc_table_size_parse(void *field, const char *text, char *why)
 }
 
 /* clang-format off */
-static const tc_option tc_render_option[] = {
+const tc_option tc_render_option[] = {
     {.help = "Data"},
     TC_INPUT_ARRAY_ROWS(tc_render_command, source),
     {"--time", 0, "T", "the step at or before this time; a number that ends in ms is --frame-time", TC_OPTION_CUSTOM, .at = 0, .parse = tc_time_parse},
@@ -203,8 +199,8 @@ static const tc_option tc_render_option[] = {
     {"--unit-distance", 0, "U", "length over which opacity acts; default bounds diagonal / cbrt(cells)", TC_OPTION_REAL, AT(unit_distance), .low = 0, .high = 1e300, .open = true},
     {"--nan-color", 0, "R,G,B[,A]", "show cells with a value that is not finite, with attenuation A (1) per unit distance", TC_OPTION_CUSTOM, AT(nan_color), .parse = tc_nan_color_parse},
     {"--log", 0, NULL, "lay the map over the logarithm of the scalar", TC_OPTION_FLAG, AT(log)},
+    {.kind = TC_OPTION_ALSO},
     {.help = "Method"},
-    {"--model", 0, "density-emitter", "how light and matter act", TC_OPTION_CHOICE, AT(model), .choice = tc_model_choice},
     {"--integrator", 0, "auto|table|integral|exact", "pre-integrated table of the 2003 paper, running integrals, or piece by piece of the function", TC_OPTION_CHOICE, AT(integrator), .choice = tc_integrator_choice},
     {"--table-size", 0, "S,S,L", "of the table: front and back scalar, length; default 128,128,256", TC_OPTION_CUSTOM, AT(table_size), .parse = tc_table_size_parse},
     {"--table-format", 0, "auto|8|16f|32f", "bits a channel of the table", TC_OPTION_CHOICE, AT(table_format), .choice = tc_format_choice},
@@ -231,21 +227,25 @@ static const tc_option tc_render_option[] = {
     {"--audit", 0, NULL, "let the walk check itself in the counted frame: exactly two faces of a visited cell hold the ray", TC_OPTION_FLAG, AT(audit)},
     {"--stats", 0, "FILE", "write what was measured as JSON; - for stdout", TC_OPTION_TEXT, AT(stats)},
     {"--seed", 0, "S", "of the pixels of --verify and of synthetic datasets; default 1", TC_OPTION_U64, AT(seed)},
-    {"--iso", .kind = TC_OPTION_LATER},
-    {"--shade", .kind = TC_OPTION_LATER},
-    {"--clip", .kind = TC_OPTION_LATER},
     {"--shell", .kind = TC_OPTION_LATER},
 };
 /* clang-format on */
+const size_t tc_n_render_option = sizeof tc_render_option / sizeof *tc_render_option;
 
 const tc_command tc_command_render = {
     .name = "render",
     .arguments = "INPUT",
     .what = "One image of a mesh.",
     .about = "INPUT is a file with three-dimensional cells (VTK, Exodus II, EnSight, OpenFOAM, CGNS, PLOT3D and more), "
-             "or synth:NAME[:CELLS], a synthetic dataset (tetcast synth --list).",
+             "or synth:NAME[:CELLS], a synthetic dataset (tetcast synth --list); or a scene file (.json), whose keys are "
+             "these options; or a picture that tetcast render wrote, to make it again. Options given here come first; "
+             "--FLAG=off turns one off that a scene has on.",
     .option = tc_render_option,
     .n_option = sizeof tc_render_option / sizeof *tc_render_option,
+    .also = tc_look_option,
+    .n_also = TC_N_LOOK_OPTION,
+    .also_at = offsetof(tc_render_command, look),
+    .given = offsetof(tc_render_command, given) + 1,
     .least = 1,
     .most = 1,
     .run = tc_render_run_command,
@@ -324,12 +324,14 @@ static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
             return TC_EXIT_USAGE;
         }
     }
-    for (int i = 0; i < N; i++)
-        if (file[i].path && tc_same_file(out->input, file[i].path)) {
-            tc_talk_error(talk, "%s is the input and would be written over: give %s another name", out->input,
-                          file[i].option);
+    for (int i = 0; i < 2 * N; i++) {
+        const char *input = i < N ? out->input : out->scene_path, *path = file[i % N].path;
+        if (input && path && tc_same_file(input, path)) {
+            tc_talk_error(talk, "%s is the input and would be written over: give %s another name", input,
+                          file[i % N].option);
             return TC_EXIT_USAGE;
         }
+    }
     int code = -1;
     for (int i = 0; i < N && code < 0; i++) {
         if (file[i].path && file[i].picture)
@@ -388,17 +390,24 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
                       "--audit checks the walk from cell to cell, which --driver reference does not do: leave one out");
         return TC_EXIT_USAGE;
     }
+    if ((out->look.outline || out->look.wireframe) && !strcmp(out->driver, "reference")) {
+        tc_talk_error(talk, "--driver reference draws no lines: leave %s out, or the driver",
+                      out->look.outline ? "--outline" : "--wireframe");
+        return TC_EXIT_USAGE;
+    }
     if (out->preset && !out->color_map) {
         tc_talk_error(talk, "--preset names a map of a file: give the file with --color-map");
         return TC_EXIT_USAGE;
     }
-    return tc_outputs_check(out, talk);
+    code = tc_look_options_check(&out->look, &out->given, talk);
+    return code < 0 ? tc_outputs_check(out, talk) : code;
 }
 
-int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
+/* --------------------------------------------------------------------------------------------------------- scenes */
+
+static void tc_render_command_defaults(tc_render_command *out)
 {
     tc_render_options defaults;
-    int n_argument;
     tc_render_defaults(&defaults);
     *out = (tc_render_command){
         .size = {512, 512},
@@ -410,7 +419,84 @@ int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_comma
         .repeat = 1,
         .seed = 1,
     };
+    tc_look_options_defaults(&out->look);
+}
+
+/* Does what the command line gives stand for an option of the scene: the same one, or one that it follows from? */
+static bool tc_is_overridden(const tc_render_command *line, const tc_scene *scene, const char *name)
+{
+    static const char *const follows[][2] = {
+        {"--field", "--cell-data"},       {"--field", "--point-data"},      {"--field", "--range"},
+        {"--cell-data", "--point-data"},  {"--point-data", "--cell-data"},  {"--color-field", "--color-range"},
+        {"--color-map", "--preset"},      {"--color-map", "--categories"},  {"--categories", "--color-map"},
+        {"--categories", "--preset"},     {"--categories", "--color-range"}, {"--iso", "--iso-color"},
+        {"--iso", "--iso-opacity"},       {"--geometry", "--geometry-color"},
+    };
+    static const char *const of_map[] = {"--opacity", "--range", "--log"};
+    if (tc_is_given(&line->given, name))
+        return strcmp(name, "--time") != 0 || line->source.has_time;
+    for (size_t i = 0; i < sizeof follows / sizeof *follows; i++)
+        if (!strcmp(name, follows[i][1]) && tc_is_given(&line->given, follows[i][0]))
+            return true;
+    if (!strcmp(name, "--time") || !strcmp(name, "--step"))
+        return line->source.has_time || line->source.has_step;
+    bool second = line->look.color_field != NULL;
+    for (size_t i = 0; i < scene->n; i++)
+        second = second || !strcmp(scene->item[i].option->name, "--color-field");
+    for (size_t i = 0; i < sizeof of_map / sizeof *of_map; i++)
+        if (line->look.categories && !second && !strcmp(name, of_map[i]))
+            return true;
+    return false;
+}
+
+/* INPUT is a scene: its options, then those of the command line over them. */
+static int tc_scene_take(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
+{
+    tc_render_command line = *out;
+    int n_argument, code;
+    tc_render_command_defaults(out);
+    code = tc_scene_read(&out->scene, line.input, command, talk);
+    for (size_t i = 0; i < out->scene.n && code < 0; i++) {
+        const tc_scene_item *item = &out->scene.item[i];
+        if (!tc_is_overridden(&line, &out->scene, item->option->name))
+            code = tc_option_set(out, talk, command, item->option, item->called, item->text);
+        if (code >= 0)
+            code = TC_EXIT_FAILED; /* it is the file that is wrong */
+    }
+    tc_given_finish(&line.given);
+    if (code < 0 && !out->scene.data) {
+        tc_talk_error(talk, "%s names no data: add \"data\": \"FILE\"", line.input);
+        code = TC_EXIT_FAILED;
+    }
+    if (code < 0)
+        code = tc_options_parse(out, &out->scene_path, &n_argument, talk, command, argc, argv);
+    out->input = out->scene.data;
+    return code;
+}
+
+/* The picture's name where none is given: INPUT's, for a picture its data's. */
+static void tc_default_output_make(tc_render_command *out)
+{
+    char stem[480];
+    size_t n = 0;
+    tc_input_stem(stem, sizeof stem,
+                  out->scene_path && !tc_input_is_picture(out->scene_path) ? out->scene_path : out->input);
+    for (const char *c = stem; *c && n + 8 < sizeof out->default_output; c++) {
+        out->default_output[n++] = *c;
+        if (out->steps.there && (*c == '{' || *c == '}')) /* no placeholder */
+            out->default_output[n++] = *c;
+    }
+    snprintf(out->default_output + n, sizeof out->default_output - n, ".png");
+    out->output = out->default_output;
+}
+
+int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
+{
+    int n_argument;
+    tc_render_command_defaults(out);
     int code = tc_options_parse(out, &out->input, &n_argument, talk, command, argc, argv);
+    if (code < 0 && tc_input_is_scene(out->input))
+        code = tc_scene_take(out, talk, command, argc, argv);
     if (code >= 0)
         return code;
     out->gl = tc_gl_choice[out->gl_choice].name;
@@ -420,17 +506,16 @@ int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_comma
         out->has_verify = true;
         out->verify = UINT64_MAX;
     }
-    if (!out->output) {
-        char stem[480];
-        size_t n = 0;
-        tc_input_stem(stem, sizeof stem, out->input);
-        for (const char *c = stem; *c && n + 8 < sizeof out->default_output; c++) {
-            out->default_output[n++] = *c;
-            if (out->steps.there && (*c == '{' || *c == '}')) /* no placeholder */
-                out->default_output[n++] = *c;
-        }
-        snprintf(out->default_output + n, sizeof out->default_output - n, ".png");
-        out->output = out->default_output;
-    }
+    if (out->look.model == TC_MODEL_EMISSION && !tc_is_given(&out->given, "--background"))
+        out->background = (tc_background){.there = true, .rgba = {0, 0, 0, 1}}; /* light alone is seen on black */
+    out->source.keep_reader = out->look.color_field || out->look.select.n > 0 || out->look.blocks.n > 0;
+    if (!out->output)
+        tc_default_output_make(out);
     return tc_render_check(out, talk);
+}
+
+void tc_render_command_finish(tc_render_command *command)
+{
+    tc_given_finish(&command->given);
+    tc_scene_finish(&command->scene);
 }

@@ -3,6 +3,8 @@
 #define TC_CLI_RENDER_OPTIONS_H
 
 #include "cli/input.h"
+#include "cli/look_options.h"
+#include "cli/scene_file.h"
 #include "cli/step_names.h"
 
 typedef struct tc_size {
@@ -20,7 +22,10 @@ typedef struct tc_nan_color {
 } tc_nan_color;
 
 typedef struct tc_render_command {
-    const char *input, *output; /* output NULL: default_output */
+    const char *input, *output;
+    const char *scene_path; /* the scene file or picture that was given for INPUT; NULL: a mesh was */
+    tc_scene scene;         /* from it; texts below point into it */
+    tc_given_list given;    /* by the scene and, over it, by the command line */
     char default_output[512];
     tc_input_options source;
     tc_step_range steps; /* --step FROM:TO; source has the first of them then, if it was given */
@@ -38,7 +43,7 @@ typedef struct tc_render_command {
     bool has_range, log;
     double unit_distance;
     tc_nan_color nan_color;
-    int model;
+    tc_look_options look;
 
     int integrator; /* tc_integrator */
     int table_size[3];
@@ -69,8 +74,15 @@ typedef struct tc_render_command {
 /* Was an error or a frame time asked for? */
 bool tc_choice_asked(const tc_render_command *options);
 
-/* Defaults, parsing, checks that need no mesh. -1 to go on, else the exit code. */
+/* The options of everything that makes a picture: with tc_look_option behind them they are those of a command whose struct
+ * is a tc_render_command, as tc_command_render is. */
+extern const tc_option tc_render_option[];
+extern const size_t tc_n_render_option;
+
+/* Defaults, parsing, the scene file where INPUT is one, checks that need no mesh. -1 to go on, else the exit code. Whatever
+ * it is, tc_render_command_finish frees what the struct holds. */
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv);
+void tc_render_command_finish(tc_render_command *command);
 
 /* Do both names lead to one file, there or to be written? */
 bool tc_same_file(const char *a, const char *b);

@@ -1,5 +1,6 @@
 /* render_picture.c: from a prepared mesh to one picture in a file. */
 #include "cli/render_picture.h"
+#include "cli/look_build.h"
 #include "cli/render_choose.h"
 #include "cli/render_verify.h"
 #include "cli/render_view.h"
@@ -42,50 +43,6 @@ void tc_frames_finish(tc_frames *frames)
     tc_image_writer_destroy(&frames->writer);
     free(frames->frame);
     frames->frame = NULL;
-}
-
-static int tc_transfer_make(tc_render_run *run, const double range[2], tc_talk *talk)
-{
-    const tc_render_command *options = run->options;
-    tc_error err = {0};
-    tc_transfer_options make = {
-        .color_map = options->color_map,
-        .preset = options->preset,
-        .opacity = options->opacity,
-        .has_range = options->has_range,
-        .range = {options->range[0], options->range[1]},
-        .data_range = {range[0], range[1]},
-        .log = options->log,
-    };
-    if (!(range[0] <= range[1])) { /* nothing is finite: any function does, the picture is empty and says so */
-        make.data_range[0] = 0;
-        make.data_range[1] = 1;
-    }
-    tc_status status = tc_transfer_create(&run->tf, &make, &err);
-    return status ? tc_talk_status(talk, status, &err) : -1;
-}
-
-static void tc_render_set(tc_render_options *out, const tc_render_command *options)
-{
-    tc_render_defaults(out);
-    out->width = options->size.width;
-    out->height = options->size.height;
-    out->integrator = (tc_integrator)options->integrator;
-    if (options->table_size[0] > 0)
-        memcpy(out->table_size, options->table_size, sizeof out->table_size);
-    out->table_format = (tc_table_format)options->table_format;
-    out->unit_distance = options->unit_distance;
-    out->integral_order = options->integral_order;
-    out->integral_split = options->integral_split;
-    out->opacity_stop = options->opacity_stop;
-    out->samples = options->samples;
-    out->state_format = (tc_state_format)options->state_format;
-    out->has_nan_color = options->nan_color.there;
-    memcpy(out->nan_color, options->nan_color.rgba, sizeof out->nan_color);
-    out->stepper = (tc_stepper)options->stepper;
-    out->steps_per_pass = options->steps_per_pass;
-    out->z_update_every = options->z_update_every;
-    out->count = false;
 }
 
 /* One frame into run->image. -1, or an exit code; a lost ray is an error after its numbers are kept in *stats. Rays
@@ -149,6 +106,36 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
     return -1;
 }
 
+/* Title, colour bar and axes over the picture, those that are asked for. */
+static tc_status tc_figure_make(const tc_render_run *run, tc_talk *talk, tc_error *err)
+{
+    const tc_look_options *o = &run->options->look;
+    const tc_look_parts *parts = run->look;
+    const bool second = parts->color_function != NULL;
+    const int place = o->bar_place == TC_BAR_NONE ? TC_BAR_RIGHT : o->bar_place;
+    if (!o->title && !o->color_bar && !o->axes && !o->triad)
+        return TC_OK;
+    const char *name = NULL;
+    if (second)
+        tc_field_info(NULL, NULL, &name, parts->look.color_field);
+    const tc_figure figure = {
+        .title = o->title,
+        .text_size = o->text_size,
+        .bar = o->color_bar ? (tc_bar)place : TC_BAR_NONE,
+        .function = second ? parts->color_function : run->tf,
+        .bar_title = second ? (name ? name : o->color_field) : tc_run_field(run),
+        .has_range = !o->categories,
+        .range = {second ? parts->color_range[0] : run->range[0], second ? parts->color_range[1] : run->range[1]},
+        .log = run->options->log && !second,
+        .bar_opacity = o->bar_opacity && !second,
+        .triad = o->triad,
+        .axes = o->axes,
+        .bounds = run->report.bounds,
+        .camera = &run->camera,
+    };
+    return tc_figure_draw(run->image, &figure, &talk->log, err);
+}
+
 static int tc_picture_write(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
 {
     const tc_render_command *options = run->options;
@@ -157,20 +144,45 @@ static int tc_picture_write(tc_render_run *run, tc_frames *frames, tc_talk *talk
     tc_meta_make(&meta, run, argc, argv);
     if (options->background.there)
         tc_image_background(run->image, options->background.rgba);
+    tc_status status = tc_figure_make(run, talk, &err);
     double start = tc_talk_clock_s();
-    tc_status status =
-        frames->writer
-            ? tc_image_writer_save(frames->writer, run->image, options->output, meta.pair, meta.n, &talk->log, &err)
-            : tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
+    if (status == TC_OK)
+        status = frames->writer ? tc_image_writer_save(frames->writer, run->image, options->output, meta.pair, meta.n,
+                                                       &talk->log, &err)
+                                : tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
     run->ms_write = 1e3 * (tc_talk_clock_s() - start);
     tc_meta_finish(&meta);
     return status ? tc_talk_status(talk, status, &err) : -1;
 }
 
+/* The largest channel, of light without opacity too. */
+static double tc_image_light(const tc_image *image)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height * 4;
+    float peak = 0;
+    for (size_t i = 0; i < n; i++)
+        peak = image->rgba[i] > peak ? image->rgba[i] : peak;
+    return (double)peak;
+}
+
+/* Why a picture with a look is empty, where the function's opacity or the mesh's place cannot tell; NULL: they do. */
+static const char *tc_look_empty_reason(const tc_look *look)
+{
+    if (look && (look->n_plane > 0 || look->has_box || look->n_select > 0))
+        return "clipping or selection may leave nothing to see: change --clip, --clip-box, --select or --blocks";
+    if (look && look->model == TC_MODEL_SURFACES)
+        return "no ray meets a surface: give --iso values that the scalar takes (tetcast info tells its range)";
+    if (look && (look->model == TC_MODEL_MAXIMUM || look->model == TC_MODEL_MINIMUM || look->model == TC_MODEL_AVERAGE))
+        return "no ray meets a cell whose values are finite: change the camera, or leave its options out";
+    return NULL;
+}
+
 static void tc_empty_warn(const tc_render_run *run, tc_talk *talk)
 {
     char why[512];
-    const double peak = (double)tc_image_peak(run->image);
+    const tc_look *look = run->render.look;
+    const double peak =
+        look && look->model == TC_MODEL_EMISSION ? tc_image_light(run->image) : (double)tc_image_peak(run->image);
     if (peak >= TC_VISIBLE)
         return;
     if (peak > 0) {
@@ -180,9 +192,12 @@ static void tc_empty_warn(const tc_render_run *run, tc_talk *talk)
                        peak);
         return;
     }
-    tc_empty_reason(why, sizeof why, &run->report, tc_run_field(run), run->tf,
-                    run->options->nan_color.there ? run->render.nan_color : NULL, &run->camera, &run->options->size);
-    tc_talk_always(talk, "the picture is empty: %s", why);
+    const char *reason = tc_look_empty_reason(look);
+    if (!reason)
+        tc_empty_reason(why, sizeof why, &run->report, tc_run_field(run), run->tf,
+                        run->options->nan_color.there ? run->render.nan_color : NULL, &run->camera,
+                        &run->options->size);
+    tc_talk_always(talk, "the picture is empty: %s", reason ? reason : why);
 }
 
 static void tc_render_summary(const tc_render_run *run, tc_talk *talk)
@@ -199,34 +214,9 @@ static void tc_render_summary(const tc_render_run *run, tc_talk *talk)
                 stats->integrator, frame, strcmp(run->options->output, "-") ? run->options->output : "stdout");
 }
 
-void tc_source_notes_say(const tc_mesh *mesh, const char *input, tc_talk *talk)
+int tc_render_ready(tc_frames *frames, tc_talk *talk)
 {
-    const tc_source *source = tc_mesh_source(mesh);
-    for (size_t i = 0; source && i < source->n_note; i++)
-        tc_talk_say(talk, "%s: %s", input, source->note[i]);
-}
-
-void tc_nonfinite_say(const tc_render_run *run, tc_talk *talk)
-{
-    const tc_mesh_report *report = &run->report;
-    if (report->nonfinite_cells)
-        tc_talk_say(talk, "%zu of %zu cells have a value that is not finite and are %s", report->nonfinite_cells,
-                    report->n_tet,
-                    run->options->nan_color.there ? "shown with --nan-color" : "transparent; --nan-color shows them");
-    if (report->dropped_nonfinite)
-        tc_talk_say(talk, "%zu cells have a point that is not finite and were dropped", report->dropped_nonfinite);
-}
-
-int tc_render_ready(tc_render_run *run, tc_frames *frames, const double range[2], tc_talk *talk)
-{
-    const tc_render_command *options = run->options;
     tc_error err = {0};
-    int code = tc_transfer_make(run, range, talk);
-    if (code < 0)
-        code = tc_render_camera(&run->camera, options, run->report.bounds, talk);
-    if (code >= 0)
-        return code;
-    tc_render_set(&run->render, options);
     tc_status status = frames->start ? tc_renderer_end(&frames->renderer, &frames->start, &talk->log, &err)
                                      : tc_renderer_create(&frames->renderer, &frames->make, &talk->log, &err);
     return status ? tc_talk_status(talk, status, &err) : -1;

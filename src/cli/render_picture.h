@@ -19,14 +19,8 @@ typedef struct tc_frames {
 int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *talk);
 void tc_frames_finish(tc_frames *frames);
 
-/* Says what the reader noted. */
-void tc_source_notes_say(const tc_mesh *mesh, const char *input, tc_talk *talk);
-/* Says how many values and points are not finite. */
-void tc_nonfinite_say(const tc_render_run *run, tc_talk *talk);
-
-/* Makes run's transfer function over range, the scalars of the data, its camera over the report's bounds, its options,
- * and the renderer. -1 to go on, else an exit code. */
-int tc_render_ready(tc_render_run *run, tc_frames *frames, const double range[2], tc_talk *talk);
+/* Waits for the renderer. -1 to go on, else an exit code. */
+int tc_render_ready(tc_frames *frames, tc_talk *talk);
 /* Renders, verifies and writes the picture and the image of errors. -1 to go on, else an exit code; run->measured says
  * whether there are numbers all the same. */
 int tc_render_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv);

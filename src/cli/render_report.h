@@ -19,8 +19,10 @@ typedef struct tc_render_run {
     tc_mesh *mesh;
     tc_mesh_report report;
     tc_transfer *tf;
+    double range[2]; /* of scalars, that tf is laid over */
     tc_camera camera;
     tc_render_options render;
+    struct tc_look_parts *look; /* what render.look points to */
     tc_image *image; /* before its background is laid under it */
 
     tc_input_seen seen;
@@ -49,8 +51,8 @@ json_t *tc_render_step_json(const tc_render_run *run, int step, double time, boo
 /* Peak memory so far. */
 void tc_render_memory_json(json_t *out);
 
-/* Texts for the image file: command, camera, transfer function, version, field, notes, verify. */
-#define TC_META_MAX 12
+/* Texts for the image file: command, scene, camera, transfer function, version, field, notes, verify. */
+#define TC_META_MAX 16
 typedef struct tc_meta {
     tc_text_pair pair[TC_META_MAX];
     char *owned[TC_META_MAX];
@@ -60,6 +62,9 @@ void tc_meta_make(tc_meta *out, const tc_render_run *run, int argc, char **argv)
 /* One more; owned comes from malloc and goes with meta; NULL: nothing is added. */
 void tc_meta_add(tc_meta *meta, const char *key, char *owned);
 void tc_meta_finish(tc_meta *meta);
+
+/* The scene file that makes the picture again (docs/formats.md), whole in one line, from malloc; NULL: memory ran out. */
+char *tc_scene_text(const tc_render_run *run);
 
 /* The field's name as shown to people; never NULL. */
 const char *tc_run_field(const tc_render_run *run);

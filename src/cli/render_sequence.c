@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "cli/render_sequence.h"
 #include "cli/render_picture.h"
+#include "cli/render_setup.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,10 +24,8 @@ typedef struct tc_sequence {
     bool moved;         /* its mesh is not the one before */
     double range[2];    /* of the values of all steps */
     bool has_range;
-    double ms_ranges; /* NAN: no pass over the values */
-    tc_transfer *tf;
-    tc_camera camera;
-    tc_render_options render;
+    double ms_ranges;   /* NAN: no pass over the values */
+    tc_render_run kept; /* the function, camera and look of the first step */
     tc_frames frames;
     json_t *stats, *steps;
     int failed; /* the exit code of steps that failed after they were written; -1: none did */
@@ -200,14 +199,18 @@ static int tc_step_render(tc_sequence *s, size_t i, bool set_up, tc_talk *talk, 
             s->options.unit_distance = tc_default_unit_distance(run.mesh);
         if (s->n == 1)
             tc_range_add(s);
-        code = tc_render_ready(&run, &s->frames, s->has_range ? s->range : run.report.scalar_range, talk);
-        s->tf = run.tf;
-        s->camera = run.camera;
-        s->render = run.render;
     }
-    run.tf = s->tf;
-    run.camera = s->camera;
-    run.render = s->render;
+    run.tf = s->kept.tf;
+    run.look = s->kept.look;
+    run.camera = s->kept.camera;
+    memcpy(run.range, s->kept.range, sizeof run.range);
+    code = tc_render_setup(&run, s->has_range ? s->range : run.report.scalar_range, talk);
+    s->kept.tf = run.tf;
+    s->kept.look = run.look;
+    s->kept.camera = run.camera;
+    memcpy(s->kept.range, run.range, sizeof run.range);
+    if (code < 0 && i == 0)
+        code = tc_render_ready(&s->frames, talk);
     if (code < 0)
         code = tc_render_picture(&run, &s->frames, talk, argc, argv);
     int counted = tc_stats_add(s, &run, i, set_up, talk);
@@ -298,7 +301,7 @@ int tc_render_sequence(const tc_render_command *options, tc_talk *talk, int argc
     json_decref(s.stats);
     json_decref(s.steps);
     tc_frames_finish(&s.frames);
-    tc_transfer_destroy(&s.tf);
-    tc_mesh_destroy(&s.mesh);
+    s.kept.mesh = s.mesh;
+    tc_render_close(&s.kept);
     return code;
 }

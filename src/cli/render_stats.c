@@ -1,4 +1,5 @@
 /* render_stats.c: the --stats JSON of a render. Every number that was not measured is absent, never 0. */
+#include "cli/look_build.h"
 #include "cli/render_choose.h"
 
 #include <math.h>
@@ -176,7 +177,7 @@ json_t *tc_render_shared_json(const tc_render_run *run)
     tc_json_part(out, "image", image);
     tc_json_part(out, "gl", tc_gl_json(run));
     tc_json_part(out, "mesh", tc_mesh_json(run));
-    json_object_set_new(out, "effects", json_pack("[s]", "density-emitter"));
+    json_object_set_new(out, "effects", tc_look_json(&run->options->look));
     return out;
 }
 

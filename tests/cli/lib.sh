@@ -1,4 +1,5 @@
-# lib.sh: what the tests of the program share. From ctest: TETCAST (program), TC_SOURCE, TC_BUILD, TC_JSON (json_check).
+# lib.sh: what the tests of the program share. From ctest: TETCAST (program), TC_SOURCE, TC_BUILD, TC_JSON (json_check),
+# TC_PIXELS (png_pixels).
 set -u
 here=$TC_SOURCE/tests/cli
 work=$(mktemp -d)
@@ -34,6 +35,9 @@ there() { [ -s "$1" ] || fail "$1 was not written"; }
 absent() { [ ! -e "$1" ] || fail "$1 is there"; }
 # json FILE CHECK…: see json_check.c
 json() { "$TC_JSON" "$@" >why || { fail "$*: $(cat why)"; }; }
+# Do two PNG files have the same pixels, to the last bit?
+same_pixels() { [ "$("$TC_PIXELS" "$1")" = "$("$TC_PIXELS" "$2")" ] || fail "$1 and $2 differ"; }
+other_pixels() { [ "$("$TC_PIXELS" "$1")" != "$("$TC_PIXELS" "$2")" ] || fail "$1 and $2 are one picture"; }
 
 finish() {
     [ $failures -eq 0 ] || { echo "$failures checks failed"; exit 1; }

@@ -181,13 +181,13 @@ static void gpu_bytes_count_imaginary_cells_and_added_points(void **state)
 
 /* ------------------------------------------------------------------------------------------------ empty pictures */
 
-typedef struct tc_scene {
+typedef struct tc_test_view {
     tc_mesh_report report;
     tc_camera camera;
     tc_size size;
-} tc_scene;
+} tc_test_view;
 
-static void scene_make(tc_scene *scene)
+static void scene_make(tc_test_view *scene)
 {
     memset(scene, 0, sizeof *scene);
     for (int i = 0; i < 3; i++) {
@@ -199,7 +199,7 @@ static void scene_make(tc_scene *scene)
     scene->size = (tc_size){100, 100};
 }
 
-static void reason_with(const tc_scene *scene, const tc_knot *knot, size_t n, const double *nan_color,
+static void reason_with(const tc_test_view *scene, const tc_knot *knot, size_t n, const double *nan_color,
                         const char *words)
 {
     char why[512];
@@ -212,7 +212,7 @@ static void reason_with(const tc_scene *scene, const tc_knot *knot, size_t n, co
         fail_msg("'%s' does not say '%s'", why, words);
 }
 
-static void reason_is(const tc_scene *scene, const tc_knot *knot, size_t n, const char *words)
+static void reason_is(const tc_test_view *scene, const tc_knot *knot, size_t n, const char *words)
 {
     reason_with(scene, knot, n, NULL, words);
 }
@@ -224,7 +224,7 @@ static void empty_picture_names_its_reason(void **state)
     static const tc_knot above[] = {{20, 1, 1, 1, 0}, {30, 1, 1, 1, 1}}, below[] = {{-9, 1, 1, 1, 1}, {-5, 1, 1, 1, 0}};
     static const tc_knot ramp[] = {{-10, 1, 1, 1, 0}, {20, 1, 1, 1, 1}}; /* no knot within the range */
     static const tc_knot held[] = {{-9, 1, 1, 1, 0}, {-5, 1, 1, 1, 1}};  /* the last value holds above */
-    tc_scene scene;
+    tc_test_view scene;
     scene_make(&scene);
     reason_is(&scene, clear, 2, "opacity is 0 for every value of heat");
     reason_is(&scene, above, 2, "opacity is 0");

@@ -75,10 +75,6 @@ for case in \
     "--error-image and --stats are one file, e.png|render a --error-image e.png --stats e.png" \
     "a is the input and would be written over: give --error-image another name|render a --error-image a" \
     "e.bmp: the extension tells the format|render a --error-image e.bmp" \
-    "not in this version|render a --model mip" \
-    "--iso is not in this version|render a --iso 1" \
-    "--shade is not in this version|render a --shade phong" \
-    "--clip is not in this version|render a --clip x" \
     "--shell is not in this version|render a --shell x" \
     "the nearest is 'heatsink'|render synth:heatsnk" \
     "the number of cells|render synth:ball:many" \

@@ -1,6 +1,6 @@
-/* fuzz_options.c: command lines from any bytes: words end with a line feed.
- * The first byte chooses the command. Promises: it is accepted or refused as a wrong command line; what is accepted
- * lies within the bounds that the table states. */
+/* fuzz_options.c: command lines from any bytes: words end with a line feed. A scene file from any bytes.
+ * The first byte chooses the command, or the scene. Promises: it is accepted or refused as a wrong command line; what
+ * is accepted lies within the bounds that the table states. */
 #define _GNU_SOURCE
 #include "fuzz.h"
 
@@ -19,6 +19,11 @@ int tc_render_run_command(tc_talk *talk, const tc_command *command, int argc, ch
 void tc_render_defaults(tc_render_options *options)
 {
     *options = (tc_render_options){.width = 512, .height = 512, .opacity_stop = 0.999};
+}
+
+void tc_shade_defaults(tc_shade *shade)
+{
+    *shade = (tc_shade){.ambient = 0.2, .diffuse = 0.8, .specular = 0.2, .power = 20, .magnitude = 1};
 }
 
 const tc_synth_info *tc_synth_list(size_t *n)
@@ -75,6 +80,12 @@ static void check_render(const tc_render_command *r)
     TC_FUZZ_CHECK(r->opacity_stop >= 0 && r->opacity_stop <= 1 && r->repeat >= 1);
     TC_FUZZ_CHECK(!r->has_range || r->range[0] < r->range[1]);
     TC_FUZZ_CHECK(r->gl && r->driver && r->unit_distance >= 0);
+    const tc_look_options *look = &r->look;
+    TC_FUZZ_CHECK(look->iso.n <= TC_LOOK_MANY && look->light.n <= TC_LIGHTS_MANY && look->clip.n <= TC_LOOK_MANY);
+    for (int i = 0; i < look->select.n; i++)
+        TC_FUZZ_CHECK(look->select.range[i].name.length > 0 && look->select.range[i].lo <= look->select.range[i].hi);
+    for (int i = 0; i < look->geometry.n; i++)
+        TC_FUZZ_CHECK(look->geometry.file[i].file.length > 0 && look->geometry.file[i].opacity <= 1);
     for (int i = 0; r->background.there && i < 4; i++)
         TC_FUZZ_CHECK(r->background.rgba[i] >= 0 && r->background.rgba[i] <= 1);
 }
@@ -88,6 +99,26 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
     return 0;
 }
 
+/* The bytes as a scene file: each of its options is taken or refused as the command line's would be. */
+static void check_scene(tc_fuzz_input *in)
+{
+    static tc_render_command values;
+    tc_scene scene;
+    tc_talk talk;
+    tc_talk_init(&talk);
+    memset(&values, 0, sizeof values);
+    char *text = tc_fuzz_text(in, 0);
+    int code = tc_scene_parse(&scene, text, "scene.json", "", &tc_command_render, &talk);
+    TC_FUZZ_CHECK(code == -1 || (code == TC_EXIT_FAILED && !scene.n && !scene.data));
+    for (size_t i = 0; i < scene.n && code < 0; i++)
+        code = tc_option_set(&values, &talk, &tc_command_render, scene.item[i].option, scene.item[i].called,
+                             scene.item[i].text);
+    TC_FUZZ_CHECK(code == -1 || code == TC_EXIT_FAILED || code == TC_EXIT_USAGE);
+    tc_given_finish(&values.given);
+    tc_scene_finish(&scene);
+    free(text);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const tc_command *const command[] = {&tc_command_render, &tc_command_info, &tc_command_compare,
@@ -99,7 +130,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         char bytes[8192];
     } values;
     tc_fuzz_input in = {data, size};
-    const tc_command *c = command[tc_fuzz_u8(&in) % 4];
+    const uint8_t which = tc_fuzz_u8(&in);
+    if (which == '{') { /* the scene's own first byte, so that a scene file is an input as it is */
+        in = (tc_fuzz_input){data, size};
+        check_scene(&in);
+        return 0;
+    }
+    const tc_command *c = command[which % 4];
     char *word[WORDS + 1] = {NULL};
     const char *argument[8];
     int n = 0, n_argument = 0, code;
@@ -120,6 +157,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     TC_FUZZ_CHECK(code == -1 || code == TC_EXIT_DONE || code == TC_EXIT_USAGE || code == TC_EXIT_FAILED);
     for (size_t i = 0; code < 0 && i < c->n_option; i++)
         check_value(&c->option[i], values.bytes);
+    for (size_t i = 0; code < 0 && i < c->n_also; i++)
+        check_value(&c->also[i], values.bytes + c->also_at);
+    if (c == &tc_command_render)
+        tc_render_command_finish(&values.render);
     for (int i = 0; i < n; i++)
         free(word[i]);
     return 0;

@@ -1,0 +1,141 @@
+#!/bin/sh
+# Options of a look: each changes the picture as it says, and what cannot be is refused with one sentence.
+. "$TC_SOURCE/tests/cli/lib.sh"
+. "$TC_SOURCE/tests/cli/cube.sh"
+cube two.vtk
+echo "{}" >two.json
+size="--size 24x18 --driver reference --quiet"
+
+picture() { # picture NAME OPTION…
+    name=$1
+    shift
+    # shellcheck disable=SC2086
+    run 0 render two.vtk $size -o "$name.png" "$@"
+}
+picture plain
+for look in "--model emission" "--model absorption" "--model mip" "--model minip" "--model average" "--model xray" \
+    "--model isosurface --iso 0.5" "--iso 0.5,1.5" "--shade cell" "--shade vertex --ambient 0.1 --light 1,0,1" "--clip 0.5,0,0,1,0,0" \
+    "--clip-box 0,1,0,1,0,0.5" "--select Material:2" "--select Temp:0,1" "--blocks 20" "--surface 0.5" \
+    "--color-field Pres" "--categories 0:1,0,0;2:0,0,1" "--field Material --categories 1:1,0,0;2:0,1,0"; do
+    # shellcheck disable=SC2086
+    picture a $look
+    other_pixels plain.png a.png
+done
+
+size="--size 240x180 --driver reference --quiet" # figures need room
+picture large
+for figure in "--title T" "--color-bar" "--color-bar --color-bar-place left" "--color-bar --color-bar-opacity" "--axes" "--triad" \
+    "--title T --text-size 14"; do
+    # shellcheck disable=SC2086
+    picture a $figure
+    other_pixels large.png a.png
+    [ ! -f last.png ] || other_pixels last.png a.png
+    mv a.png last.png
+done
+size="--size 24x18 --driver reference --quiet"
+
+# What says the same is the same picture.
+picture a --select Material:2
+picture b --blocks 20
+same_pixels a.png b.png
+picture b --select Temp:1,2
+same_pixels a.png b.png
+picture b --select Material:1 --select Material:2
+same_pixels plain.png b.png
+picture b --select Material:1,2 --blocks 10,20
+same_pixels plain.png b.png
+picture b --clip "0,0,0,1,0,0;2,1,1,-1,0,0" --clip 0,0,0,0,0,1
+same_pixels plain.png b.png
+picture a --color-field Temp --color-map Viridis
+picture b --color-map Viridis
+same_pixels a.png b.png
+picture a --iso 0.5,1.5 --iso-color 1,0,0 --iso-opacity 0.5
+picture b --iso 0.5,1.5 --iso-color "1,0,0;1,0,0" --iso-opacity 0.5,0.5
+same_pixels a.png b.png
+picture a --model emission
+picture b --model emission --background 0,0,0
+same_pixels a.png b.png
+printf '1: 1,0,0 # copper\n2: 0,1,0\n' >materials.txt
+printf '[{"IndexedColors": [1, 0, 0, 0, 1, 0], "Annotations": ["1", "copper", "2", "iron"]}]' >materials.json
+picture a --field Material --categories "1:1,0,0;2:0,1,0"
+for file in materials.txt materials.json; do
+    picture b --field Material --categories $file
+    same_pixels a.png b.png
+done
+run 0 render two.vtk $size -o a.png --stats s.json --iso 1 --shade cell --clip 0,0,0,1,0,0
+json s.json eq effects.0 density-emitter eq effects.1 isosurfaces eq effects.2 shade-cell eq effects.3 clip
+run 0 render two.vtk $size -o a.png --stats s.json --model mip
+json s.json eq effects.0 mip size effects 1
+run 0 render two.vtk $size -o a.png --select Material:7
+says "the picture is empty: clipping or selection"
+
+# A step's fields are that step's: the same pictures one by one and as a sequence.
+cube 0.vtk 0
+cube 1.vtk 1
+printf '{"file-series-version": "1.0", "files": [{"name": "0.vtk", "time": 0}, {"name": "1.vtk", "time": 1}]}' >run.vtk.series
+look="--range 0,3 --field Material --color-field Temp --color-range 0,3 --select Temp:1,9 --surface 0.3"
+run 0 render run.vtk.series $size $look --step 0:1 -o "s_{step}.png"
+run 0 render run.vtk.series $size $look --step 1 -o one.png
+same_pixels s_1.png one.png
+other_pixels s_0.png s_1.png
+
+# What cannot be.
+wrong() { # wrong CODE TEXT OPTION…
+    code=$1 text=$2
+    shift 2
+    # shellcheck disable=SC2086
+    run "$code" render two.vtk $size -o no.png "$@"
+    says "$text"
+    one_line
+    absent no.png
+}
+wrong 2 "the nearest is 'minip'" --model minipp
+wrong 2 "each from 0 to 1" --iso 1 --iso-color 2,0,0
+wrong 2 "--iso-color has 3, but there are 2 of --iso" --iso 1,2 --iso-color "1,0,0;0,1,0;0,0,1"
+wrong 2 "--iso-opacity is of --iso" --iso-opacity 0.5
+wrong 2 "--model isosurface shows surfaces alone: give --iso" --model isosurface
+wrong 2 "--ambient acts on what is lit: give --shade" --ambient 0.5
+wrong 2 "points nowhere" --shade cell --light 0,0,0
+wrong 2 "points nowhere" --clip 1,2,3,0,0,0
+wrong 2 "--clip takes X,Y,Z,NX,NY,NZ" --clip 1,2,3
+wrong 2 "X0 below X1" --clip-box 1,0,0,1,0,1
+wrong 2 "LO not above HI" --select Temp:2,1
+wrong 2 "--select takes NAME:LO,HI" --select Temp
+wrong 1 "has no array \"Tmp\"" --select Tmp:1
+wrong 2 "whole numbers" --blocks 1.5
+wrong 2 "--color-range is of --color-field" --color-range 0,1
+wrong 2 "LO below HI" --color-field Pres --color-range 1,0
+wrong 2 "--color-map and --categories both" --categories "1:1,0,0" --color-map Viridis
+wrong 2 "--opacity is of a colour map" --categories "1:1,0,0" --opacity linear
+wrong 2 "there is no file none.txt" --categories none.txt
+wrong 2 "gives the value 1 twice" --categories "1:1,0,0;1:0,0,0"
+wrong 1 "no preset with IndexedColors" --categories two.json
+wrong 2 "--color-bar-place is of --color-bar" --color-bar-place left
+wrong 2 "--driver reference draws no lines" --wireframe
+wrong 2 "OPACITY from 0 to 1" --geometry a.stl,2
+wrong 1 "none.stl" --geometry none.stl
+wrong 2 "two.vtk: 'Material' is cell data" --field Material --iso 1
+wrong 2 "two.vtk: absorption" --model absorption --shade cell
+wrong 2 "two.vtk: isosurfaces belong to matter that absorbs" --model mip --iso 1
+wrong 2 "--axes takes no value, but '--axes=on' was given" --axes=on
+run 2 render synth:ball $size -o no.png --color-field x
+says "a synthetic dataset has one field"
+cat >plain.vtk <<'VTK'
+# vtk DataFile Version 3.0
+one tet
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 4 double
+0 0 0  1 0 0  0 1 0  0 0 1
+CELLS 1 5
+4 0 1 2 3
+CELL_TYPES 1
+10
+POINT_DATA 4
+SCALARS T double 1
+LOOKUP_TABLE default
+0 1 2 3
+VTK
+run 1 render plain.vtk $size -o no.png --blocks 1
+says "plain.vtk has no array of block numbers"
+finish

@@ -1,0 +1,121 @@
+#!/bin/sh
+# Scene files, and pictures that carry theirs: what they say is rendered, and what is wrong is told by line and key.
+. "$TC_SOURCE/tests/cli/lib.sh"
+. "$TC_SOURCE/tests/cli/cube.sh"
+small="--size 24x18 --quiet"
+mkdir data
+cube data/disk.vtu
+
+# The example of docs/formats.md, word by word; its paths lead from its folder.
+sed -n '/^```json$/,/^```$/p' "$TC_SOURCE/docs/formats.md" | grep -v '^```' >data/disk.json
+[ "$(wc -l <data/disk.json)" -gt 10 ] || fail "docs/formats.md has no example"
+run 0 render data/disk.json --driver reference
+there data/disk.png
+run 0 render data/disk.vtu --driver reference --field Temp --camera-position 4,3,8 --focal-point 1,0.5,0.5 --view-up 0,1,0 \
+    --view-angle 25 --azimuth 10 --color-map Viridis --range 0,2 --opacity 0:0,0.5:0.1,2:3 --iso 0.5,1.5 \
+    --iso-color "1,0.5,0;0.2,0.4,1" --iso-opacity 1,0.4 --shade vertex --light "head;1,1,0" --ambient 0.3 \
+    --color-field Pres --clip 0.2,0,0,1,0,0 --select "Material:1;Material:2" --surface 0.1 --title Disk --color-bar \
+    --samples 4 --size 320x240 --background 1,1,1 -o line.png
+same_pixels data/disk.png line.png
+
+# Without a name for the picture the scene's; with one of the command line that.
+printf '{"data": "data/disk.vtu", "output": {"size": [8, 8]}, "method": {"driver": "reference"}}' >short.json
+run 0 render short.json
+there short.png
+run 0 render short.json -o else.png --size 9x7
+"$TETCAST" render else.png --quiet --size 5x5 -o less.png || fail "else.png is not made again"
+says "wrote else.png"
+other_pixels short.png else.png
+
+# A picture is made again bit by bit, and carries the same scene then.
+scene_of() { "$TC_PIXELS" "$1" tetcast:scene; }
+again() { # again OPTION…
+    # shellcheck disable=SC2086
+    run 0 render $input $small -o first.png "$@"
+    run 0 render first.png --quiet -o second.png
+    same_pixels first.png second.png
+    [ -n "$(scene_of first.png)" ] || fail "$input $* carries no scene"
+    [ "$(scene_of first.png)" = "$(scene_of second.png)" ] || fail "$input $* carries another scene when it is made again"
+}
+input=synth:ball:500
+again --azimuth 30 --elevation 20 --zoom 1.3 --background 0.1,0.2,0.3,0.7
+again --parallel --roll 10 --samples adaptive --clipping-range 1,9 --unit-distance 0.1 --steps-per-pass 3
+again --opacity "0:0,0.5:0.3,1:7" --integrator table --table-size 32,32,64 --table-format 8 --seed 7
+again --error 0.01 --no-cache --size 12x9
+again --driver reference --verify 20 --reentry peel --nan-color 1,0,1
+input=data/disk.vtu
+again --driver reference --field Pres --log --range 0.1,1
+again --driver reference --cell-data --field Material --categories "1:1,0,0;2:0,1,0,3"
+again --driver reference --color-field Pres --color-map Plasma --select Material:1 --select "Temp:0,1;Pres:0,1" --surface
+again --driver reference --model mip --clip 0.5,0,0,1,0,0 --clip-box 0,2,0,0.8,0,1 --triad --title "Schön 'n' \"gut\""
+again --driver reference --iso 0.5,1.2 --iso-color "1,0,0;0,1,0" --shade vertex --light "head;1,0,0" --color-bar --axes
+for extension in exr tif; do
+    run 0 render $input $small -o first.$extension --azimuth 33
+    run 0 render first.$extension --quiet -o second.$extension
+    run 0 compare first.$extension second.$extension --json
+    grep -q '"max_abs": 0.0' out || fail "first.$extension made again is another picture"
+done
+cp data/disk.vtu 0.vtk
+cube 1.vtk 1
+printf '{"file-series-version": "1.0", "files": [{"name": "0.vtk", "time": 0}, {"name": "1.vtk", "time": 1}]}' >run.vtk.series
+run 0 render run.vtk.series $small --step : -o "s_{step}.png" --azimuth 20
+for step in 0 1; do
+    run 0 render s_$step.png --quiet -o again.png
+    same_pixels s_$step.png again.png
+done
+run 0 render s_0.png --quiet --step 1 -o again.png # over the range that all steps share
+same_pixels s_1.png again.png
+run 0 render s_0.png --quiet --time 1 -o again.png
+same_pixels s_1.png again.png
+
+# From another folder, since files are in it by their whole path; named after its data.
+run 0 render $input $small -o first.png
+(cd data && "$TETCAST" render ../first.png --quiet --size 5x5) || fail "a picture is not made from another folder"
+there data/disk.png
+run 2 render data/disk.png -o data/disk.png
+says "data/disk.png is the input and would be written over"
+run 1 render nothing.png -o a.png
+says "nothing.png"
+run 0 render short.json --quiet -o plain.png
+printf 'tetcast:scane' | dd of=plain.png bs=1 seek="$(LC_ALL=C grep -a -b -o 'tetcast:scene' plain.png | head -1 | cut -d: -f1)" conv=notrunc 2>dd.err
+run 1 render plain.png -o a.png
+says "plain.png carries no scene"
+
+# What is wrong is told by file, line and key; nothing is written.
+wrong() { # wrong TEXT SCENE
+    printf '%s' "$2" >wrong.json
+    run 1 render wrong.json -o no.png
+    says "$1"
+    one_line
+    absent no.png
+}
+wrong "wrong.json:3: camera has no key 'positon'; the nearest is 'position'" '{"data": "synth:ball",
+"camera": {
+"positon": [1, 2, 3]}}'
+wrong "wrong.json:2: the scene has no key 'effect'; the nearest is 'effects'" '{"data": "synth:ball",
+"effect": {}}'
+wrong "wrong.json:2: the scene has no key 'azimuth': it belongs into camera" '{"data": "synth:ball",
+"azimuth": 3}'
+wrong "wrong.json:2: camera.azimuth takes a number, not a text" '{"data": "synth:ball", "camera": {"roll": 1,
+"azimuth": "3"}}'
+wrong "wrong.json:2: camera.position takes X,Y,Z, not '1,2'" '{"data": "synth:ball", "camera":
+{"position": [1, 2]}}'
+wrong "wrong.json:1: camera.view_angle takes DEG, above 0" '{"data": "synth:ball", "camera": {"view_angle": 0}}'
+wrong "wrong.json:1: effects.shade takes off|cell|vertex, not 'cel'; the nearest is 'cell'" '{"data": "synth:ball", "effects": {"shade": "cel"}}'
+wrong "wrong.json:1: effects takes an object" '{"data": "synth:ball", "effects": ["mip"]}'
+wrong "wrong.json:2: views is not in this version" '{"data": "synth:ball",
+"views": 7}'
+wrong "wrong.json:1: shell is not in this version" '{"data": "synth:ball", "shell": {}}'
+wrong "wrong.json:1: output.cinema is not in this version" '{"data": "synth:ball", "output": {"cinema": true}}'
+wrong "wrong.json:1: output.size takes WxH: each from 1 to 32768" '{"data": "synth:ball", "output": {"size": [0, 4]}}'
+wrong "wrong.json names no data: add \"data\": \"FILE\"" '{"field": "x"}'
+wrong "wrong.json:3: this is no JSON" '{"data": "synth:ball",
+
+}'
+wrong "wrong.json:1: a scene is an object" '[1]'
+wrong "nowhere.vtu cannot be read" '{"data": "nowhere.vtu"}'
+wrong "wrong.json:2: this is no JSON: duplicate object key" '{"data": "synth:ball",
+"data": "synth:ball"}'
+run 1 render gone.json
+says "gone.json cannot be read"
+finish
