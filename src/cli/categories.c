@@ -12,10 +12,15 @@
 
 enum { TC_CATEGORIES_MOST = 65536, TC_FILE_MOST = 16 << 20, TC_LINE_MOST = 512 };
 
+typedef struct tc_category {
+    tc_knot knot; /* s is the value */
+    char *name;   /* NULL: none */
+} tc_category;
+
 typedef struct tc_categories {
     size_t n;
-    tc_knot *knot;    /* [n]: s is the value */
-    const char *from; /* the file, or the option's name: stands in errors */
+    tc_category *item; /* [n] */
+    const char *from;  /* the file, or the option's name: stands in errors */
     tc_talk *talk;
 } tc_categories;
 
@@ -25,17 +30,20 @@ static int tc_memory_out(tc_talk *talk)
     return TC_EXIT_FAILED;
 }
 
-static int tc_add(tc_categories *c, const tc_knot *knot)
+/* name of that length, 0: none */
+static int tc_add(tc_categories *c, const tc_knot *knot, const char *name, size_t length)
 {
     if (c->n == TC_CATEGORIES_MOST) {
         tc_talk_error(c->talk, "%s has more than %d values", c->from, TC_CATEGORIES_MOST);
         return TC_EXIT_FAILED;
     }
-    tc_knot *more = realloc(c->knot, (c->n + 1) * sizeof *more);
-    if (!more)
+    tc_category *more = realloc(c->item, (c->n + 1) * sizeof *more);
+    char *copy = more && length > 0 ? strndup(name, length) : NULL;
+    if (more)
+        c->item = more;
+    if (!more || (length > 0 && !copy))
         return tc_memory_out(c->talk);
-    c->knot = more;
-    c->knot[c->n++] = *knot;
+    c->item[c->n++] = (tc_category){*knot, copy};
     return -1;
 }
 
@@ -49,7 +57,7 @@ static bool tc_is_color(const double *rgb)
     return true;
 }
 
-/* V:R,G,B[,A] */
+/* V:R,G,B[,A][:NAME] */
 static int tc_entry(tc_categories *c, const char *text)
 {
     double v[4] = {0, 0, 0, 1};
@@ -57,17 +65,19 @@ static int tc_entry(tc_categories *c, const char *text)
     char word[TC_LINE_MOST];
     int n = 0;
     snprintf(word, sizeof word, "%s", text);
-    char *colon = strchr(word, ':');
+    char *colon = strchr(word, ':'), *name = colon ? strchr(colon + 1, ':') : NULL;
     if (colon)
         *colon = 0;
+    if (name)
+        *name++ = 0;
     if (!colon || !tc_parse_real(&knot.s, word) || !tc_parse_reals(v, &n, 4, colon + 1) || n < 3 || !tc_is_color(v) ||
         v[3] < 0) {
-        tc_talk_error(c->talk, "%s: '%.100s' is not V:R,G,B[,A] with R, G and B from 0 to 1 and A not below 0", c->from,
-                      text);
+        tc_talk_error(c->talk, "%s: '%.100s' is not V:R,G,B[,A][:NAME] with R, G and B from 0 to 1 and A not below 0",
+                      c->from, text);
         return TC_EXIT_USAGE;
     }
     knot.r = v[0], knot.g = v[1], knot.b = v[2], knot.a = v[3];
-    return tc_add(c, &knot);
+    return tc_add(c, &knot, name, name ? strlen(name) : 0);
 }
 
 /* Entries with ';' or line ends between them, and comments from # to the line's end. */
@@ -164,8 +174,9 @@ static int tc_preset(tc_categories *c, char *text, const double range[2])
             tc_talk_error(c->talk, "%s: colour %zu is not from 0 to 1 each", c->from, i % n + 1);
             code = TC_EXIT_FAILED;
         }
+        const char *name = json_string_value(json_array_get(notes, 2 * i + 1));
         if (code < 0)
-            code = tc_add(c, &knot);
+            code = tc_add(c, &knot, name, name ? strlen(name) : 0);
     }
     json_decref(json);
     return code;
@@ -193,53 +204,91 @@ static int tc_file(tc_categories *c, const char *path, const double range[2])
 
 /* ---------------------------------------------------------------------------------------------------------- whole */
 
+void tc_category_list_finish(tc_category_list *list)
+{
+    for (size_t i = 0; list->name && i < list->n; i++)
+        free((char *)list->name[i]);
+    free(list->name);
+    free(list->value);
+    *list = (tc_category_list){0};
+}
+
 static int tc_by_value(const void *a, const void *b)
 {
-    const tc_knot *x = a, *y = b;
-    return (x->s > y->s) - (x->s < y->s);
+    const tc_category *x = a, *y = b;
+    return (x->knot.s > y->knot.s) - (x->knot.s < y->knot.s);
 }
 
 /* Two knots a value: where its colour begins and ends. */
-static int tc_steps(tc_transfer **out, tc_categories *c)
+static int tc_steps(tc_transfer **out, const tc_categories *c)
 {
     tc_error err = {0};
-    qsort(c->knot, c->n, sizeof *c->knot, tc_by_value);
-    for (size_t i = 1; i < c->n; i++)
-        if (c->knot[i].s == c->knot[i - 1].s) {
-            tc_talk_error(c->talk, "%s gives the value %g twice", c->from, c->knot[i].s);
-            return TC_EXIT_USAGE;
-        }
     tc_knot *knot = calloc(c->n, 2 * sizeof *knot);
     if (!knot)
         return tc_memory_out(c->talk);
     for (size_t i = 0; i < c->n; i++) {
-        const tc_knot *k = &c->knot[i];
+        const tc_knot *k = &c->item[i].knot;
+        const double before = i > 0 ? c->item[i - 1].knot.s : k->s - 1;
+        const double after = i + 1 < c->n ? c->item[i + 1].knot.s : k->s + 1;
         knot[2 * i] = knot[2 * i + 1] = *k;
-        knot[2 * i].s = i > 0 ? 0.5 * (k[-1].s + k->s) : k->s - 0.5;
-        knot[2 * i + 1].s = i + 1 < c->n ? 0.5 * (k->s + k[1].s) : k->s + 0.5;
+        knot[2 * i].s = 0.5 * (before + k->s);
+        knot[2 * i + 1].s = 0.5 * (k->s + after);
     }
     tc_status status = tc_transfer_from_knots(out, knot, 2 * c->n, &err);
     free(knot);
     return status ? tc_talk_status(c->talk, status, &err) : -1;
 }
 
-int tc_categories_make(tc_transfer **out, const char *text, const double range[2], tc_talk *talk)
+/* Values in ascending order, each once. */
+static int tc_order(tc_categories *c)
+{
+    if (c->n == 0) {
+        tc_talk_error(c->talk, "%s names no value", c->from);
+        return TC_EXIT_USAGE;
+    }
+    qsort(c->item, c->n, sizeof *c->item, tc_by_value);
+    for (size_t i = 1; i < c->n; i++)
+        if (c->item[i].knot.s == c->item[i - 1].knot.s) {
+            tc_talk_error(c->talk, "%s gives the value %g twice", c->from, c->item[i].knot.s);
+            return TC_EXIT_USAGE;
+        }
+    return -1;
+}
+
+/* The names go from c to the list. */
+static int tc_list_make(tc_category_list *out, tc_categories *c)
+{
+    *out = (tc_category_list){c->n, calloc(c->n, sizeof *out->value), calloc(c->n, sizeof *out->name)};
+    if (!out->value || !out->name)
+        return tc_memory_out(c->talk);
+    for (size_t i = 0; i < c->n; i++) {
+        out->value[i] = c->item[i].knot.s;
+        out->name[i] = c->item[i].name;
+        c->item[i].name = NULL;
+    }
+    return -1;
+}
+
+int tc_categories_make(tc_transfer **out, tc_category_list *list, const char *text, const double range[2],
+                       tc_talk *talk)
 {
     const bool file = access(text, F_OK) == 0;
     tc_categories c = {.from = file ? text : "--categories", .talk = talk};
-    int code = -1;
+    int code;
     if (!file && !strchr(text, ':')) {
         tc_talk_error(talk, "--categories takes V:R,G,B[,A];… or a file, and there is no file %s", text);
         code = TC_EXIT_USAGE;
     } else {
         code = file ? tc_file(&c, text, range) : tc_entries(&c, text);
     }
-    if (code < 0 && c.n == 0) {
-        tc_talk_error(talk, "%s names no value", c.from);
-        code = TC_EXIT_USAGE;
-    }
+    if (code < 0)
+        code = tc_order(&c);
     if (code < 0)
         code = tc_steps(out, &c);
-    free(c.knot);
+    if (code < 0)
+        code = tc_list_make(list, &c);
+    for (size_t i = 0; i < c.n; i++)
+        free(c.item[i].name);
+    free(c.item);
     return code;
 }

@@ -1,7 +1,6 @@
 /* look_build.c: from the options of a look, a mesh and its file to a tc_look. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/look_build.h"
-#include "cli/categories.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -113,7 +112,7 @@ static int tc_color_function_make(tc_look_parts *parts, const tc_render_command 
     if (o->has_color_range)
         memcpy(parts->color_range, o->color_range, sizeof parts->color_range);
     if (o->categories)
-        return tc_categories_make(&parts->color_function, o->categories, parts->color_range, talk);
+        return tc_categories_make(&parts->color_function, &parts->categories, o->categories, parts->color_range, talk);
     const tc_transfer_options make = {.color_map = options->color_map,
                                       .preset = options->preset,
                                       .opacity = "linear", /* its opacity is not looked at */
@@ -233,6 +232,7 @@ void tc_look_parts_finish(tc_look_parts *parts)
         tc_geometry_finish(&parts->geometry[i]);
     parts->n_file = 0;
     tc_transfer_destroy(&parts->color_function);
+    tc_category_list_finish(&parts->categories);
 }
 
 static bool tc_is_asked(const tc_look_options *o)

@@ -2,6 +2,7 @@
 #ifndef TC_CLI_LOOK_BUILD_H
 #define TC_CLI_LOOK_BUILD_H
 
+#include "cli/categories.h"
 #include "cli/json_out.h"
 #include "cli/render_options.h"
 
@@ -16,7 +17,8 @@ typedef struct tc_look_parts {
     tc_field *field[TC_LOOK_MANY + 2]; /* that select and color_field point to */
     double color_range[2];             /* that the colours of color_field are laid over */
     tc_transfer *color_function;
-    int n_file; /* geometry of files, the first ones of geometry; what the mesh gives follows */
+    tc_category_list categories; /* of the function that gives the colours; none: it has none */
+    int n_file;                  /* geometry of files, the first ones of geometry; what the mesh gives follows */
     tc_geometry geometry[TC_LOOK_MANY + 3];
 } tc_look_parts;
 

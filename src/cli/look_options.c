@@ -292,7 +292,7 @@ const tc_option tc_look_option[] = {
     {"--iso-opacity", 0, "A[,A…]", "of each of them, or one for all; default 1", TC_OPTION_CUSTOM, .at = 0, .parse = tc_iso_opacity_parse},
     {"--color-field", 0, "NAME[:COMPONENT]", "the array that --color-map colours, while --field gives the opacity", TC_OPTION_TEXT, AT(color_field)},
     {"--color-range", 0, "LO,HI", "its values that the map spans; default its range", TC_OPTION_REALS, AT(color_range), HAS(has_color_range), .n = 2},
-    {"--categories", 0, "V:R,G,B[,A];…|FILE", "a colour, and attenuation A (1), for each value, as of material numbers; a file of such lines, or a ParaView preset with IndexedColors", TC_OPTION_TEXT, AT(categories)},
+    {"--categories", 0, "V:R,G,B[,A][:NAME];…|FILE", "a colour, attenuation A (1) and a name for the colour bar for each value, as of material numbers; a file of such lines, or a ParaView preset with IndexedColors", TC_OPTION_TEXT, AT(categories)},
     {.help = "Light"},
     {"--shade", 0, "off|cell|vertex", "light by gradients: flat in each cell, or smooth across cells; default off", TC_OPTION_CHOICE, AT(gradient), .choice = tc_shade_choice},
     {"--light", 0, "head|X,Y,Z[;…]", "from the eye, or towards the light in this direction; default head", TC_OPTION_CUSTOM, .at = 0, .parse = tc_light_parse},

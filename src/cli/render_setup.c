@@ -1,6 +1,5 @@
 /* render_setup.c: from the command line of `render` to all that a picture is made of. */
 #include "cli/render_setup.h"
-#include "cli/categories.h"
 #include "cli/render_view.h"
 
 #include <math.h>
@@ -44,7 +43,7 @@ static int tc_transfer_make(tc_render_run *run, const double range[2], tc_talk *
     }
     memcpy(run->range, options->has_range ? make.range : make.data_range, sizeof run->range);
     if (options->look.categories && !options->look.color_field)
-        return tc_categories_make(&run->tf, options->look.categories, make.data_range, talk);
+        return tc_categories_make(&run->tf, &run->look->categories, options->look.categories, make.data_range, talk);
     tc_status status = tc_transfer_create(&run->tf, &make, &err);
     return status ? tc_talk_status(talk, status, &err) : -1;
 }
@@ -75,14 +74,14 @@ static void tc_render_set(tc_render_options *out, const tc_render_command *optio
 int tc_render_setup(tc_render_run *run, const double range[2], tc_talk *talk)
 {
     int code = -1;
+    if (!run->look && !(run->look = calloc(1, sizeof *run->look))) {
+        tc_talk_error(talk, "memory ran out");
+        return TC_EXIT_FAILED;
+    }
     if (!run->tf) {
         code = tc_transfer_make(run, range, talk);
         if (code < 0)
             code = tc_render_camera(&run->camera, run->options, run->report.bounds, talk);
-    }
-    if (code < 0 && !run->look && !(run->look = calloc(1, sizeof *run->look))) {
-        tc_talk_error(talk, "memory ran out");
-        code = TC_EXIT_FAILED;
     }
     if (code >= 0)
         return code;

@@ -32,6 +32,9 @@ for figure in "--title T" "--color-bar" "--color-bar --color-bar-place left" "--
     [ ! -f last.png ] || other_pixels last.png a.png
     mv a.png last.png
 done
+picture a --field Material --color-bar --categories "1:1,0,0;2:0,1,0"
+picture b --field Material --color-bar --categories "1:1,0,0:copper;2:0,1,0:iron"
+other_pixels a.png b.png
 size="--size 24x18 --driver reference --quiet"
 
 # What says the same is the same picture.

@@ -288,10 +288,13 @@ static void light_alone_is_seen_on_black(void **state)
 
 /* ------------------------------------------------------------------------------------------------------ categories */
 
+static tc_category_list list;
+
 static void function_of(tc_transfer **tf, const char *text)
 {
     static const double range[2] = {3, 9};
-    assert_int_equal(tc_categories_make(tf, text, range, &talk), -1);
+    tc_category_list_finish(&list);
+    assert_int_equal(tc_categories_make(tf, &list, text, range, &talk), -1);
 }
 
 static void categories_meet_half_way(void **state)
@@ -305,15 +308,17 @@ static void categories_meet_half_way(void **state)
     assert_true(k[1].s == 3 && k[2].s == 3 && k[0].r == 1 && k[1].r == 1 && k[0].a == 1);
     assert_true(k[2].b == 1 && k[3].b == 1 && k[2].a == 0.5 && k[2].r == 0);
     tc_transfer_destroy(&tf);
-    scene_write("categories_test.txt", "# materials\n1: 1,0,0 \r\n\n2:0,1,0,0.25 # steel\n");
+    scene_write("categories_test.txt", "# materials\n1: 1,0,0 \r\n\n2:0,1,0,0.25:hard steel # B\n");
     function_of(&tf, "categories_test.txt");
     k = tc_transfer_knots(tf, &n);
     assert_true(n == 4 && k[1].s == 1.5 && k[2].g == 1 && k[2].a == 0.25);
+    assert_true(list.n == 2 && list.value[1] == 2 && !list.name[0] && !strcmp(list.name[1], "hard steel"));
     tc_transfer_destroy(&tf);
     scene_write("categories_test.txt", "[{\"Name\": \"a\"}, {\"Name\": \"b\", \"IndexedColors\": [1, 0, 0, 0, 1, 0,],\n"
                                        "\"Annotations\": [\"7\", \"a\", \"2\", \"b,]\", \"4\", \"c\"],\n},\n]\n");
     function_of(&tf, "categories_test.txt");
     k = tc_transfer_knots(tf, &n);
+    assert_true(list.n == 3 && !strcmp(list.name[0], "b,]") && !strcmp(list.name[2], "a") && list.value[2] == 7);
     assert_true(n == 6 && k[1].s == 3 && k[0].g == 1 && k[2].r == 1 && k[4].r == 1); /* 2 green, 4 and 7 red */
     tc_transfer_destroy(&tf);
     scene_write("categories_test.txt", "{\"IndexedColors\": [1, 0, 0, 0, 1, 0]}");
@@ -324,7 +329,7 @@ static void categories_meet_half_way(void **state)
     static const char *const wrong[] = {"",           ";",      "1:2,0,0",    "1:0,0", "x:0,0,0", "1:0,0,0;1:1,1,1",
                                         "1:0,0,0,-1", "nofile", "1:0,0,0,0,0"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        if (tc_categories_make(&tf, wrong[i], (const double[2]){0, 1}, &talk) < 0)
+        if (tc_categories_make(&tf, &list, wrong[i], (const double[2]){0, 1}, &talk) < 0)
             fail_msg("'%s' is taken", wrong[i]);
     static const char *const wrong_file[] = {"",
                                              "[]",
@@ -334,9 +339,10 @@ static void categories_meet_half_way(void **state)
                                              "{"};
     for (size_t i = 0; i < sizeof wrong_file / sizeof *wrong_file; i++) {
         scene_write("categories_test.txt", wrong_file[i]);
-        if (tc_categories_make(&tf, "categories_test.txt", (const double[2]){0, 1}, &talk) < 0)
+        if (tc_categories_make(&tf, &list, "categories_test.txt", (const double[2]){0, 1}, &talk) < 0)
             fail_msg("a file of '%s' is taken", wrong_file[i]);
     }
+    tc_category_list_finish(&list);
     unlink("categories_test.txt");
 }
 
