@@ -46,6 +46,9 @@ static tc_status check(const tc_effects *e, tc_error *err)
             return tc_fail(err, TC_E_ARG, "%s (%s) needs the state format 32f, but 16f was asked for", row->name,
                            e->why[i]);
         tc_integrator asked = e->scene.options->integrator;
+        if ((row->needs & TC_NEEDS_SUMS) && asked == TC_INTEGRATOR_TABLE)
+            return tc_fail(err, TC_E_ARG, "%s (%s) needs the integrator 'integral' or 'exact', but 'table' was asked for",
+                           row->name, e->why[i]);
         if ((row->needs & TC_NEEDS_PIECES) && asked != TC_INTEGRATOR_AUTO && asked != TC_INTEGRATOR_EXACT)
             return tc_fail(err, TC_E_ARG, "%s (%s) needs the integrator 'exact', but '%s' was asked for", row->name,
                            e->why[i], asked == TC_INTEGRATOR_TABLE ? "table" : "integral");

@@ -17,6 +17,7 @@ enum {
     TC_NEEDS_POINTS = 8,    /* values of points: cell data will not do */
     TC_NEEDS_SIGNS = 16,    /* the stepper whose walk knows its face's vertices and weights */
     TC_NEEDS_NO_FUNCTION = 32, /* none is looked at: none is uploaded */
+    TC_NEEDS_SUMS = 64, /* what segments add can be told from what was there: any integrator but the table */
 };
 
 /* Units of what effects fetch (fetch.glsl): images where the renderer is software, which have few; a row of each line at a

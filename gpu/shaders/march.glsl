@@ -147,10 +147,10 @@ int march(inout ivec4 walk, inout vec4 color, inout ivec4 at, vec2 pixel)
         } while (GOES_ON && !integral_waits(integral) && walk_fast(w, ray));
     } while (GOES_ON && !integral_waits(integral));
 #ifdef TF_HARD
-    integral_settle(integral); // where this makes the ray opaque it ends after its next step
+    integral_settle(integral); // where this makes the ray opaque it ends after its next step //@then march_settled
     } while (GOES_ON);
 #endif
-    // What is left may be absorbed behind, or not: half of it is taken to be, in the colour that the ray is in.
+    // What is left may be absorbed behind, or not: half of it is taken to be, in the colour that the ray is in. //@then march_rest
     if (w.cell == MARCH_OPAQUE) {
         integral_stop(integral, w.s);
         w.cell = MARCH_ENDED;

@@ -29,6 +29,20 @@ Light shade_of(vec3 g, Ray ray)
 }
 #endif
 
+void shade_keep(Integral integral)
+{
+    shade_rgb = integral.sum.rgb;
+    shade_clear = integral.sum.transmittance;
+}
+
+// Lights what was added since.
+void shade_sum(inout Integral integral)
+{
+    integral.sum.rgb = shade_rgb + (integral.sum.rgb - shade_rgb) * shade_light.gain +
+                       shade_light.glow * (shade_clear - integral.sum.transmittance);
+    shade_keep(integral);
+}
+
 //@section march_begin
     shade_kept_soft = keep(shade_soft);
 #ifdef GRADIENT_VERTEX
@@ -50,9 +64,16 @@ Light shade_of(vec3 g, Ray ray)
 #endif
 
 //@section part_cut
-    shade_rgb = integral.sum.rgb;
-    shade_clear = integral.sum.transmittance;
+    shade_keep(integral);
 
 //@section part_done
-                integral.sum.rgb = shade_rgb + (integral.sum.rgb - shade_rgb) * shade_light.gain +
-                                   shade_light.glow * (shade_clear - integral.sum.transmittance);
+                shade_sum(integral);
+
+//@section march_settled
+    shade_sum(integral);
+
+//@section march_rest
+    shade_keep(integral);
+
+//@section march_end
+    shade_sum(integral);
