@@ -81,6 +81,12 @@ run 0 render run.vtk.series $size $look --step 0:1 -o "s_{step}.png"
 run 0 render run.vtk.series $size $look --step 1 -o one.png
 same_pixels s_1.png one.png
 other_pixels s_0.png s_1.png
+# The colours of the second field stay those of the first step.
+run 0 render run.vtk.series $size --field Pres --color-field Temp --blocks 10 --step 0:1 -o "s_{step}.png"
+run 0 render run.vtk.series $size --field Pres --color-field Temp --blocks 10 --step 1 --color-range 0,2 -o one.png
+same_pixels s_1.png one.png
+run 0 render s_1.png --quiet -o one.png
+same_pixels s_1.png one.png
 
 # What cannot be.
 wrong() { # wrong CODE TEXT OPTION…
