@@ -150,6 +150,43 @@ tc_status tc_effects_update(tc_effects *effects, size_t *bytes, tc_effect_store 
     return TC_OK;
 }
 
+bool tc_effects_have_frame(const tc_effects *effects)
+{
+    for (int k = 0; k < effects->n; k++)
+        if (effects->row[k]->frame)
+            return true;
+    return false;
+}
+
+tc_status tc_effects_compile(const tc_effects *effects, const tc_job *job, tc_error *err)
+{
+    tc_status status = TC_OK;
+    for (int k = 0; k < effects->n && status == TC_OK; k++)
+        if (effects->row[k]->compile)
+            status = effects->row[k]->compile(effects->store->state[effects->place[k]], &effects->scene, job, err);
+    return status;
+}
+
+tc_status tc_effects_frame(const tc_effects *effects, const tc_job *job, tc_error *err)
+{
+    tc_status status = TC_OK;
+    for (int k = 0; k < effects->n && status == TC_OK; k++)
+        if (effects->row[k]->frame)
+            status = effects->row[k]->frame(effects->store->state[effects->place[k]], &effects->scene, job, err);
+    return status;
+}
+
+double tc_effects_bytes(tc_effects *effects)
+{
+    double sum = 0;
+    for (int k = 0; k < effects->n; k++) {
+        if (effects->row[k]->held)
+            effects->bytes[k] = (double)effects->row[k]->held(effects->store->state[effects->place[k]]);
+        sum += effects->bytes[k];
+    }
+    return sum;
+}
+
 void tc_effects_bind(const tc_effects *effects, const tc_job *job, GLuint program)
 {
     for (int k = 0; k < effects->n; k++)

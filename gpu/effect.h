@@ -18,6 +18,7 @@ enum {
     TC_NEEDS_SIGNS = 16,    /* the stepper whose walk knows its face's vertices and weights */
     TC_NEEDS_NO_FUNCTION = 32, /* none is looked at: none is uploaded */
     TC_NEEDS_SUMS = 64, /* what segments add can be told from what was there: any integrator but the table */
+    TC_NEEDS_WAY = 64, /* rays keep tc_state_set.at from one entry to the next: no first hit but the first empties it */
 };
 
 /* Units of what effects fetch (fetch.glsl): images where the renderer is software, which have few; a row of each line at a
@@ -28,6 +29,7 @@ enum {
     TC_UNIT_EFFECT_COLOR = 6, /* a second field */
     TC_UNIT_EFFECT_PIECES = 7,
     TC_UNIT_EFFECT_TEXTURE = 16, /* and above: textures, three a row at most */
+    TC_UNIT_EFFECT_LAYERS = 16,  /* geometry */
 };
 
 /* What rows are asked about. */
@@ -60,6 +62,12 @@ typedef struct tc_effect {
     size_t state_bytes;
     tc_status (*update)(void *state, size_t *bytes, const tc_effect_scene *scene, const tc_gl *gl, tc_error *err);
     void (*finish)(void *state, const tc_gl *gl);
+    /* Makes what depends on the frame of rays (job->frame), before their first hits, within the scissor rectangle, which is
+     * then the whole picture: rays that miss the mesh may see it, too. compile: the programs alone. Both or neither. */
+    tc_status (*compile)(void *state, const tc_effect_scene *scene, const tc_job *job, tc_error *err);
+    tc_status (*frame)(void *state, const tc_effect_scene *scene, const tc_job *job, tc_error *err);
+    /* Bytes on the GPU after that; NULL: those of update. */
+    size_t (*held)(const void *state);
     /* Binds what its shaders read: the program of the march, or the one that makes colours of what rays gathered. */
     void (*bind)(const void *state, const tc_effect_scene *scene, const tc_job *job, GLuint program);
     /* The largest r, g, b that light may make of colours up to most; NULL: no more. */
@@ -99,6 +107,12 @@ tc_status tc_effects_choose(tc_effects *out, const tc_effect_scene *scene, tc_er
 tc_status tc_effects_function(const tc_transfer **out, tc_effect_store *store, const tc_effects *effects, tc_error *err);
 /* Uploads what rows in force need, frees what others left; *bytes gets the sum of what is there. */
 tc_status tc_effects_update(tc_effects *effects, size_t *bytes, tc_effect_store *store, const tc_gl *gl, tc_error *err);
+/* What rows make for each frame of rays; whether any does. Errors: as theirs. */
+bool tc_effects_have_frame(const tc_effects *effects);
+tc_status tc_effects_compile(const tc_effects *effects, const tc_job *job, tc_error *err);
+tc_status tc_effects_frame(const tc_effects *effects, const tc_job *job, tc_error *err);
+/* What rows hold on the GPU by now; sets effects->bytes. */
+double tc_effects_bytes(tc_effects *effects);
 /* Of the program in use. */
 void tc_effects_bind(const tc_effects *effects, const tc_job *job, GLuint program);
 /* What a row makes of the function's colours holds for that of missing values: r, g, b, attenuation, in place. */

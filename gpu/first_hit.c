@@ -1,6 +1,7 @@
 /* first_hit.c: draws the proposed boundary faces to find each ray's entry. */
 #include "gpu/first_hit.h"
 
+#include "gpu/effect.h"
 #include "gpu/pass.h"
 
 #include <stddef.h>
@@ -87,7 +88,8 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err)
         gl->ClearBufferiv(GL_COLOR, 1, no_key);
     }
     gl->BindFramebuffer(GL_FRAMEBUFFER, s->set[0].framebuffer);
-    gl->ClearBufferiv(GL_COLOR, TC_STATE_AT, entry);
+    if (layer == 0 || !job->effects || !(job->effects->needs & TC_NEEDS_WAY))
+        gl->ClearBufferiv(GL_COLOR, TC_STATE_AT, entry);
     gl->BindFramebuffer(GL_FRAMEBUFFER, s->hit_framebuffer[job->peel ? next : 0]);
     gl->Viewport(0, 0, s->width, s->height);
     gl->DepthMask(GL_TRUE);

@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "gpu/accumulate.h"
 #include "gpu/audit.h"
+#include "gpu/effect.h"
 #include "gpu/first_hit.h"
 #include "scene/samples.h"
 
@@ -44,9 +45,13 @@ tc_status tc_picture_compile(tc_picture *p, tc_error *err)
     tc_status status = p->job->driver->compile(p->job, err);
     if (status == TC_OK)
         status = tc_accumulate_compile(p->job, samples, err);
+    if (status == TC_OK && p->job->effects)
+        status = tc_effects_compile(p->job->effects, p->job, err);
     if (status == TC_OK && samples == TC_SAMPLES_ADAPTIVE) {
         p->job->masked = true;
         status = tc_first_hit_compile(p->job, err);
+        if (status == TC_OK && p->job->effects)
+            status = tc_effects_compile(p->job->effects, p->job, err);
     }
     p->job->frame = NULL;
     return status;
@@ -106,13 +111,18 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
     if (!rays.hidden)
         status = tc_propose(p->proposals, &rays, p->options->width, p->options->height, p->face_corner,
                             job->mesh->n_face, err);
+    const bool effect_frame = job->effects && tc_effects_have_frame(job->effects);
+    if (effect_frame) /* is seen anywhere */
+        unite_rects(rect, (const int[4]){0, 0, p->options->width, p->options->height});
     if (touch)
         unite_rects(rect, touch);
     if (job->masked)
         intersect_rects(rect, p->marked);
-    double ms_propose = tc_now_ms() - start;
     gl->Enable(GL_SCISSOR_TEST); /* nothing is done where no face is seen */
     gl->Scissor(rect[0], rect[1], rect[2], rect[3]);
+    if (status == TC_OK && effect_frame)
+        status = tc_effects_frame(job->effects, job, err);
+    double ms_propose = tc_now_ms() - start;
     if (status == TC_OK)
         status = job->driver->frame(&one, job, err);
     job->last = one.last;

@@ -425,7 +425,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     if (status == TC_OK)
         fill_stats(stats, r, &job, &result);
     if (status == TC_OK)
-        stats->gpu_bytes_other += (double)effect_bytes;
+        stats->gpu_bytes_other += tc_effects_bytes(&effects);
     if (status == TC_OK && job.count) {
         free(r->fragments);
         r->fragments = result.fragments;

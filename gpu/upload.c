@@ -17,10 +17,10 @@ static tc_status upload_poisoned(const tc_texture_buffer *b, const tc_gl *gl, co
     unsigned char *padded = tc_alloc(b->bytes + POISON_BYTES, 1);
     if (!padded)
         return tc_fail_memory(err, what, b->bytes + POISON_BYTES, 1);
-    if (b->bytes > 0)
+    if (b->bytes > 0 && data)
         memcpy(padded, data, b->bytes);
-    for (size_t i = 0; i < POISON_BYTES; i += sizeof nan_bits)
-        memcpy(padded + b->bytes + i, &nan_bits, sizeof nan_bits);
+    for (size_t i = data ? b->bytes : 0; i < b->bytes + POISON_BYTES; i += sizeof nan_bits)
+        memcpy(padded + i, &nan_bits, sizeof nan_bits);
     gl->BufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)(b->bytes + POISON_BYTES), padded, GL_STATIC_DRAW);
     free(padded);
     return TC_OK;

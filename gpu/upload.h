@@ -15,8 +15,8 @@ typedef struct tc_texture_buffer {
     size_t bytes;
 } tc_texture_buffer;
 
-/* data: n_texel texels of texel_bytes, borrowed; what: "uploading the gradients", for errors. Errors: TC_E_MEMORY (with the
- * figure needed), TC_E_GL. */
+/* data: n_texel texels of texel_bytes, borrowed, or NULL: room alone; what: "uploading the gradients", for errors.
+ * Errors: TC_E_MEMORY (with the figure needed), TC_E_GL. */
 tc_status tc_texture_buffer_upload(tc_texture_buffer *out, const tc_gl *gl, const void *data, size_t n_texel,
                                    size_t texel_bytes, GLenum format, const char *what, tc_error *err);
 void tc_texture_buffer_finish(tc_texture_buffer *buffer, const tc_gl *gl);

@@ -55,7 +55,7 @@ void main()
         imageStore(out_audit, pixel, audit_end());
 #endif
         imageStore(out_color, pixel, color);
-        imageStore(out_walk, pixel, walk);
+        imageStore(out_walk, pixel, walk); //@then march_store
         atomicCounterIncrement(rays_walked);
         if (walk.x >= 0) {
             imageStore(out_at, pixel, at);

@@ -157,6 +157,6 @@ int march(inout ivec4 walk, inout vec4 color, inout ivec4 at, vec2 pixel)
     } //@then march_end
     color = integral_end(integral);
     walk = ivec4(w.cell, w.id);
-    at = ivec4(floatBitsToInt(w.z), floatBitsToInt(w.s), walk_from(w), 1);
+    at = ivec4(floatBitsToInt(w.z), floatBitsToInt(w.s), walk_from(w), 1); //@then march_at
     return k;
 }

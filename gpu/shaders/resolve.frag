@@ -7,7 +7,7 @@ uniform float share; // of a ray in its pixel
 layout(location = 0) out vec4 out_rgba;
 void main()
 {
-    out_rgba = resolved(ivec2(gl_FragCoord.xy));
+    out_rgba = resolved(ivec2(gl_FragCoord.xy)); //@then resolve_behind
 #ifdef SHARE
     out_rgba *= share;
 #endif

@@ -4,7 +4,7 @@ layout(location = 0) out vec4 out_most;
 layout(location = 1) out vec4 out_least; // negative, so that the least is the greatest
 void main()
 {
-    vec4 color = resolved(ivec2(gl_FragCoord.xy));
+    vec4 color = resolved(ivec2(gl_FragCoord.xy)); //@then spread_behind
     out_most = color;
     out_least = -color;
 }
