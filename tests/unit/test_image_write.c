@@ -314,6 +314,49 @@ static void texts_do_not_come_back(void **state)
     tc_image_destroy(&image);
 }
 
+static void one_text_is_not_found_or_a_short_file_is_read_beyond(void **state)
+{
+    (void)state;
+    tc_error err = {0};
+    char *text = NULL;
+    static const tc_text_pair meta[] = {{"tetcast:a", "plain"},
+                                        {"tetcast:scene", "Schr\xc3\xb6"
+                                                          "dinger"},
+                                        {"b", ""}};
+    static const char *const names[] = {"t.png", "t.exr", "t.tif"};
+    tc_image *image = noise(5, 4);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const char *path = in_folder(names[i]);
+        must(tc_image_writer_write(writer, image, path, NULL, meta, 3, NULL, &err), &err);
+        must(tc_image_read_text(&text, path, "tetcast:scene", &err), &err);
+        assert_string_equal(text, meta[1].value);
+        free(text);
+        must(tc_image_read_text(&text, path, "tetcast:a", &err), &err);
+        assert_string_equal(text, "plain");
+        free(text);
+        must(tc_image_read_text(&text, path, "tetcast:scen", &err), &err);
+        assert_null(text);
+    }
+    assert_int_equal(tc_image_read_text(&text, in_folder("none.png"), "a", &err), TC_E_FILE);
+    void *data;
+    size_t n;
+    must(tc_file_read(&data, &n, in_folder("t.png"), &err), &err);
+    for (size_t i = 8; i < n; i++) { /* cut, and with a length that leads beyond */
+        const tc_file_part part = {data, i};
+        must(tc_file_replace_parts(in_folder("cut.png"), &part, 1, &err), &err);
+        must(tc_image_read_text(&text, in_folder("cut.png"), "tetcast:scene", &err), &err);
+        assert_true(!text || !strcmp(text, meta[1].value));
+        free(text);
+    }
+    memset((uint8_t *)data + 8, 0xff, 4);
+    const tc_file_part part = {data, n};
+    must(tc_file_replace_parts(in_folder("cut.png"), &part, 1, &err), &err);
+    must(tc_image_read_text(&text, in_folder("cut.png"), "tetcast:scene", &err), &err);
+    assert_null(text);
+    free(data);
+    tc_image_destroy(&image);
+}
+
 static void png_texts_have_wrong_check_sums(void **state)
 {
     (void)state;
@@ -526,6 +569,7 @@ int main(void)
         TEST(jpeg_is_not_laid_over_white_or_does_not_say_so),
         TEST(glow_without_opacity_vanishes_from_png_silently),
         TEST(texts_do_not_come_back),
+        TEST(one_text_is_not_found_or_a_short_file_is_read_beyond),
         TEST(png_texts_have_wrong_check_sums),
         TEST(png_texts_hold_what_is_not_utf8),
         TEST(what_cannot_be_written_is_not_refused_in_words),
