@@ -56,6 +56,13 @@ static tc_status check(const tc_effects *e, tc_error *err)
     return TC_OK;
 }
 
+static bool is_left_out(const tc_effect *row, const char *without)
+{
+    char name[64];
+    snprintf(name, sizeof name, " %s ", row->name);
+    return without && strstr(without, name);
+}
+
 tc_status tc_effects_choose(tc_effects *out, const tc_effect_scene *scene, tc_error *err)
 {
     memset(out, 0, sizeof *out);
@@ -63,8 +70,18 @@ tc_status tc_effects_choose(tc_effects *out, const tc_effect_scene *scene, tc_er
     for (int i = 0; tc_effect_table[i]; i++) {
         const tc_effect *row = tc_effect_table[i];
         int k = out->n;
-        if (!row->wanted(out->why[k], scene))
+        if (!row->wanted(out->why[k], scene)) {
+            snprintf(out->why_not[i], sizeof out->why_not[i], "%s", row->model ? "another model" : out->why[k]);
             continue;
+        }
+        if (is_left_out(row, scene->options->without)) {
+            snprintf(out->why_not[i], sizeof out->why_not[i], "left out, as was asked for");
+            if (row->model) { /* what is left is the walk */
+                out->needs |= TC_NEEDS_NO_FUNCTION;
+                out->integrator = "effects/integrate_none.glsl";
+            }
+            continue;
+        }
         out->row[k] = row;
         out->place[k] = i;
         out->needs |= row->needs;

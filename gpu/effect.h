@@ -50,6 +50,7 @@ typedef struct tc_effect {
     const char *integrator; /* stands for integrator.glsl; NULL */
     const char *excludes;   /* names of other rows, " a b "; NULL */
     unsigned needs;
+    bool model; /* one of those of tc_model */
     /* Does the scene call for it? why [TC_EFFECT_WHY] gets the reason, also for not. */
     bool (*wanted)(char *why, const tc_effect_scene *scene);
     /* Lines "#define …" that its shaders go by; NULL: none. Behind what is in out. */
@@ -83,6 +84,7 @@ typedef struct tc_effects {
     const tc_effect *row[TC_EFFECTS_MOST];
     int place[TC_EFFECTS_MOST]; /* in tc_effect_table */
     char why[TC_EFFECTS_MOST][TC_EFFECT_WHY];
+    char why_not[TC_EFFECTS_MOST][TC_EFFECT_WHY]; /* by place in the table, of those not in force */
     tc_effect_scene scene;
     unsigned needs;
     int rounds;

@@ -266,6 +266,9 @@ tc_status tc_program_text(char **out, const char *file, const char *defines, con
 typedef struct entry {
     char *vertex, *fragment; /* final texts: the key; vertex NULL: the other is a compute shader's */
     GLuint program;
+    const char *name;
+    size_t bytes;
+    bool used; /* since the last mark */
 } entry;
 
 struct tc_program_cache {
@@ -374,6 +377,7 @@ tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_prog
     for (size_t i = 0; i < cache->n; i++)
         if (same(cache->entries[i].vertex, vertex) && same(cache->entries[i].fragment, fragment)) {
             *program = cache->entries[i].program;
+            cache->entries[i].used = true;
             goto done;
         }
     entry *grown = tc_realloc(cache->entries, cache->n + 1, sizeof *grown);
@@ -386,13 +390,32 @@ tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_prog
     status = build(program, cache->gl, vertex, fragment, source, err);
     cache->ms += tc_now_ms() - start;
     if (status == TC_OK) {
-        grown[cache->n++] = (entry){vertex, fragment, *program};
+        int file = file_index(source->fragment, strlen(source->fragment));
+        grown[cache->n++] = (entry){vertex, fragment, *program, tc_shader_files[file].name,
+                                    strlen(fragment) + (vertex ? strlen(vertex) : 0), true};
         vertex = fragment = NULL;
     }
 done:
     free(vertex);
     free(fragment);
     return status;
+}
+
+void tc_program_cache_mark(tc_program_cache *cache)
+{
+    for (size_t i = 0; i < cache->n; i++)
+        cache->entries[i].used = false;
+}
+
+bool tc_program_cache_used(const char **name, size_t *bytes, const tc_program_cache *cache, size_t k)
+{
+    for (size_t i = 0; i < cache->n; i++)
+        if (cache->entries[i].used && k-- == 0) {
+            *name = cache->entries[i].name;
+            *bytes = cache->entries[i].bytes;
+            return true;
+        }
+    return false;
 }
 
 double tc_program_cache_ms(const tc_program_cache *cache)

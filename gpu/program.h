@@ -30,6 +30,10 @@ tc_status tc_program_cache_create(tc_program_cache **out, const tc_gl *gl, tc_er
 tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_program_source *source, tc_error *err);
 /* All compiling and linking so far, in ms. */
 double tc_program_cache_ms(const tc_program_cache *cache);
+/* The texts that were asked for since tc_program_cache_mark: name (of the fragment or compute shader) and bytes of program k, the
+ * stages together; false beyond the last. */
+bool tc_program_cache_used(const char **name, size_t *bytes, const tc_program_cache *cache, size_t k);
+void tc_program_cache_mark(tc_program_cache *cache);
 void tc_program_cache_destroy(tc_program_cache **cache);
 
 /* The text of one shader stage: version line, defines, the file with #include resolved once each. malloc'd. `alias`

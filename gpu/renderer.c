@@ -46,6 +46,7 @@ struct tc_gpu_renderer {
 
     tc_transfer_gpu transfer;
     tc_effect_store effects;
+    tc_effects last; /* of the last picture; n 0: there is none */
     tc_state state;
     tc_proposals proposals;
     int drawn[4]; /* part of the result that is not empty */
@@ -237,6 +238,53 @@ static tc_status count_broken(tc_render_stats *stats, tc_gpu_renderer *r, tc_err
     return status;
 }
 
+static void add_size(tc_explained_size *list, int *n, const char *name, double bytes)
+{
+    if (*n >= TC_EXPLAINED_MOST || !(bytes > 0))
+        return;
+    snprintf(list[*n].name, sizeof list[*n].name, "%s", name);
+    list[(*n)++].bytes = bytes;
+}
+
+tc_status tc_gpu_explain(tc_explanation *out, const tc_gpu_renderer *r, tc_error *err)
+{
+    memset(out, 0, sizeof *out);
+    if (r->last.n == 0)
+        return tc_fail(err, TC_E_ARG, "there is no picture to explain; render one first");
+    const char *name;
+    size_t bytes;
+    for (int i = 0; tc_effect_table[i] && i < TC_EXPLAINED_MOST; i++) {
+        const tc_effect *row = tc_effect_table[i];
+        tc_explained_effect *e = &out->effect[out->n_effect++];
+        int k = 0;
+        while (k < r->last.n && r->last.place[k] != i)
+            k++;
+        e->in_force = k < r->last.n;
+        e->what = row->what;
+        e->model = row->model;
+        e->gpu_bytes = e->in_force ? r->last.bytes[k] : 0;
+        snprintf(e->name, sizeof e->name, "%s", row->name);
+        snprintf(e->why, sizeof e->why, "%s", e->in_force ? r->last.why[k] : r->last.why_not[i]);
+    }
+    const tc_gpu_mesh *m = &r->mesh;
+    const tc_gpu_transfer *t = &r->transfer.textures;
+    add_size(out->texture, &out->n_texture, "cells", (double)m->cells.bytes);
+    add_size(out->texture, &out->n_texture, "planes of the cells",
+             (double)(m->planes_vertices.bytes + m->planes_normals.bytes + m->planes_neighbours.bytes +
+                      m->planes_scalars.bytes));
+    add_size(out->texture, &out->n_texture, "vertices", (double)m->vertices.bytes);
+    add_size(out->texture, &out->n_texture, "values of cells", (double)m->cell_scalar.bytes);
+    add_size(out->texture, &out->n_texture, "boundary faces", (double)m->faces.bytes);
+    if (!(r->last.needs & TC_NEEDS_NO_FUNCTION))
+        add_size(out->texture, &out->n_texture, "transfer function", (double)t->bytes);
+    add_size(out->texture, &out->n_texture, "rays and picture", (double)r->state.bytes);
+    for (int k = 0; k < r->last.n; k++)
+        add_size(out->texture, &out->n_texture, r->last.row[k]->name, r->last.bytes[k]);
+    for (size_t k = 0; tc_program_cache_used(&name, &bytes, r->programs, k); k++)
+        add_size(out->program, &out->n_program, name, (double)bytes);
+    return TC_OK;
+}
+
 static void fill_stats(tc_render_stats *stats, const tc_gpu_renderer *r, const tc_job *job, const tc_job_result *result)
 {
     snprintf(stats->context, sizeof stats->context, "%s", r->context->kind->name);
@@ -322,6 +370,8 @@ static tc_status prepare_effects(tc_effects *out, const tc_transfer **function, 
 tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu_frame *frame, tc_error *err)
 {
     r->audited = false;
+    r->last.n = 0;
+    tc_program_cache_mark(r->programs);
     tc_status status = tc_context_make_current(r->context, err);
     if (status != TC_OK)
         return status;
@@ -421,6 +471,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     gl->Disable(GL_SCISSOR_TEST);
     stats->ms_compile = tc_program_cache_ms(r->programs) - compile_before;
     tc_gl_watch_say(gl, frame->log);
+    r->last = effects;
     const tc_job_result result = picture.result;
     if (status == TC_OK)
         fill_stats(stats, r, &job, &result);

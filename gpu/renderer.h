@@ -33,6 +33,8 @@ const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer);
 tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *renderer, const tc_gpu_frame *frame, tc_error *err);
 /* The last result as an image, row 0 at the top. rgba [height][width][4], the caller's. */
 tc_status tc_gpu_read(float *rgba, tc_render_stats *stats, tc_gpu_renderer *renderer, tc_error *err);
+/* tc_render_explain. */
+tc_status tc_gpu_explain(tc_explanation *out, const tc_gpu_renderer *renderer, tc_error *err);
 /* tc_render_audit. */
 tc_status tc_gpu_audit(tc_audit_ray *out, tc_gpu_renderer *renderer, tc_error *err);
 /* The last result drawn over a framebuffer of the host's context. As tc_gpu_render and tc_gpu_read it changes GL state:

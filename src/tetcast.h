@@ -442,6 +442,9 @@ typedef struct tc_render_options {
                                      1/32 in a channel. More than 1: not with audit */
     tc_state_format state_format; /* of colour and opacity between passes; AUTO: 32F */
     const struct tc_look *look;   /* borrowed; NULL: the plain density emitter */
+    const char *without;          /* names of effects (tc_explained_effect) that are left out though the scene calls for them,
+                                     with spaces around each, to see what they cost; without a model rays only walk. NULL:
+                                     none. Not by the driver "reference" */
 } tc_render_options;
 
 TC_API void tc_render_defaults(tc_render_options *options);

@@ -158,4 +158,34 @@ TC_API void tc_geometry_finish(tc_geometry *geometry);
  * remedy (values out of range, isosurfaces of cell data, a field of another mesh, what excludes each other). */
 TC_API const char *tc_look_wrong(char *why, size_t capacity, const tc_look *look, const tc_mesh *mesh);
 
+/* ----------------------------------------------------------------------------------------------------- explain */
+
+/* One row of the table of effects, for the last picture. */
+typedef struct tc_explained_effect {
+    char name[32];
+    const char *what; /* one line; static */
+    bool model;       /* one of those of tc_model */
+    bool in_force;
+    char why[160];    /* it is, or is not */
+    double gpu_bytes; /* that it holds, besides what every picture needs; 0 where it is not in force */
+} tc_explained_effect;
+
+/* A program or a texture of the last picture, and its size: of a program the bytes of its text. */
+typedef struct tc_explained_size {
+    char name[48];
+    double bytes;
+} tc_explained_size;
+
+enum { TC_EXPLAINED_MOST = 32 };
+typedef struct tc_explanation {
+    int n_effect, n_program, n_texture;
+    tc_explained_effect effect[TC_EXPLAINED_MOST];
+    tc_explained_size program[TC_EXPLAINED_MOST], texture[TC_EXPLAINED_MOST];
+} tc_explanation;
+
+/* What the renderer's last picture called for, and why. In a host's context the context must be current.
+ * Errors: TC_E_ARG (no picture was made, or the driver does not use GL). */
+struct tc_renderer;
+TC_API tc_status tc_render_explain(tc_explanation *out, struct tc_renderer *renderer, tc_error *err);
+
 #endif

@@ -40,6 +40,7 @@ static void xray_knot(tc_knot *knot, const tc_effect_scene *scene)
 const tc_effect tc_effect_absorption = {
     .name = "absorption",
     .what = "light absorbed, none emitted: the function's colours are black",
+    .model = true,
     .wanted = absorption_wanted,
     .knot = absorption_knot,
 };
@@ -47,6 +48,7 @@ const tc_effect tc_effect_absorption = {
 const tc_effect tc_effect_xray = {
     .name = "xray",
     .what = "matter as on an X-ray plate: the function's colours are white",
+    .model = true,
     .wanted = xray_wanted,
     .knot = xray_knot,
 };

@@ -14,5 +14,6 @@ static bool wanted(char *why, const tc_effect_scene *scene)
 const tc_effect tc_effect_density_emitter = {
     .name = "density-emitter",
     .what = "light emitted in proportion to attenuation, and absorbed",
+    .model = true,
     .wanted = wanted,
 };

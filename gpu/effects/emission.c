@@ -31,6 +31,7 @@ const tc_effect tc_effect_emission = {
     .what = "light emitted in proportion to attenuation, and not absorbed",
     .shaders = "effects/emission.glsl",
     .needs = TC_NEEDS_PIECES,
+    .model = true,
     .wanted = wanted,
     .define = define,
     .bind = bind,

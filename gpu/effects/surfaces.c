@@ -15,5 +15,6 @@ const tc_effect tc_effect_surfaces = {
     .shaders = "",
     .integrator = "effects/integrate_none.glsl",
     .needs = TC_NEEDS_NO_FUNCTION,
+    .model = true,
     .wanted = wanted,
 };

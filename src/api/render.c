@@ -321,6 +321,15 @@ tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *rendere
     return status;
 }
 
+tc_status tc_render_explain(tc_explanation *out, tc_renderer *renderer, tc_error *err)
+{
+    if (!renderer->gpu)
+        return tc_fail(err, TC_E_ARG,
+                       "the driver '%s' has no programs, textures and passes to explain; use pingpong or compute",
+                       renderer->driver->name);
+    return tc_gpu_explain(out, renderer->gpu, err);
+}
+
 tc_status tc_render_audit(tc_audit_ray *out, tc_renderer *renderer, tc_error *err)
 {
     if (!renderer->gpu)

@@ -44,6 +44,7 @@ typedef struct tc_render_command {
     double unit_distance;
     tc_nan_color nan_color;
     tc_look_options look;
+    bool explain_json, explain_measure; /* of `explain`, which has all options of render */
 
     int integrator; /* tc_integrator */
     int table_size[3];
