@@ -18,7 +18,7 @@ enum {
     TC_NEEDS_SIGNS = 16,    /* the stepper whose walk knows its face's vertices and weights */
     TC_NEEDS_NO_FUNCTION = 32, /* none is looked at: none is uploaded */
     TC_NEEDS_SUMS = 64, /* what segments add can be told from what was there: any integrator but the table */
-    TC_NEEDS_WAY = 64, /* rays keep tc_state_set.at from one entry to the next: no first hit but the first empties it */
+    TC_NEEDS_WAY = 128, /* rays keep tc_state_set.at from one entry to the next: no first hit but the first empties it */
 };
 
 /* Units of what effects fetch (fetch.glsl): images where the renderer is software, which have few; a row of each line at a

@@ -1,7 +1,7 @@
 /* layers.c: what the rays of one frame meet of a look's geometry, nearest first. */
 #include "gpu/layers.h"
 
-#include "core/vec.h"
+#include "gpu/effects/light.h"
 #include "gpu/pass.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 enum { UNIT_VERTICES, UNIT_ITEMS, UNIT_PLANES, UNIT_OPAQUE_Z, UNIT_OPAQUE_COLOR, UNIT_MASK };
 enum { IMAGE_HEADS, IMAGE_NODES };
-enum { NODE_TEXELS = 2, NODE_BYTES = 32, NODES_LEAST = 1 << 14, LIGHTS_MOST = 16 };
+enum { NODE_TEXELS = 2, NODE_BYTES = 32, NODES_LEAST = 1 << 14 };
 
 enum kind { TRIANGLES, LINES };
 
@@ -33,12 +33,6 @@ static bool has(const tc_layers_scene *scene, bool opaque)
     return false;
 }
 
-static int count_lights(const tc_shade *shade)
-{
-    int n = shade->n_light > 0 ? shade->n_light : 1;
-    return n < LIGHTS_MOST ? n : LIGHTS_MOST;
-}
-
 static bool is_lit(const tc_layers_scene *scene, const tc_geometry *g, enum kind kind)
 {
     return kind == TRIANGLES && g->lit && scene->shade->gradient != TC_GRADIENT_NONE;
@@ -49,14 +43,16 @@ static bool is_lit(const tc_layers_scene *scene, const tc_geometry *g, enum kind
 static tc_status get_draw(GLuint *program, const tc_layers_scene *scene, const tc_geometry *g, enum kind kind,
                           const tc_job *job, tc_error *err)
 {
-    char lights[32] = "", defines[256];
-    if (is_lit(scene, g, kind))
-        snprintf(lights, sizeof lights, "#define LIGHTS %d\n", count_lights(scene->shade));
+    const bool lit = is_lit(scene, g, kind);
+    char lights[128] = "", defines[384];
+    if (lit)
+        tc_light_define(lights, sizeof lights, scene->shade);
     snprintf(defines, sizeof defines, "#define CLIP_NEAR\n#define CLIP_FAR\n%s%s%s%s%s",
              job->software ? "#define SOFTWARE\n" : "", kind == LINES ? "#define LINES\n" : "",
              is_opaque(g) ? "#define OPAQUE\n" : "",
              !is_opaque(g) && has(scene, true) ? "#define BEFORE_OPAQUE\n" : "", lights);
-    const tc_program_source source = {"effects/geometry.vert", "effects/geometry.frag", defines, NULL, NULL};
+    const tc_program_source source = {"effects/geometry.vert", "effects/geometry.frag", defines, NULL,
+                                      lit ? "effects/light.glsl" : NULL};
     return tc_program_get(program, job->programs, &source, err);
 }
 
@@ -181,26 +177,6 @@ void tc_layers_finish(tc_layers *l, const tc_gl *gl)
 
 /* ------------------------------------------------------------------------------------------ drawing */
 
-static void bind_lights(const tc_shade *shade, const tc_job *job, GLuint program)
-{
-    const tc_gl *gl = job->gl;
-    static const tc_light white = {.head = true, .color = {1, 1, 1}};
-    const tc_light *light = shade->n_light > 0 ? shade->light : &white;
-    const GLint color = gl->GetUniformLocation(program, "light_color"),
-                direction = gl->GetUniformLocation(program, "light_direction");
-    for (int i = 0; i < count_lights(shade); i++) {
-        double to[3];
-        tc_vec_copy(to, light[i].direction);
-        tc_vec_normalize(to);
-        const double *c = light[i].color;
-        const GLfloat shown[4] = {(GLfloat)c[0], (GLfloat)c[1], (GLfloat)c[2], light[i].head ? 1.0f : 0.0f};
-        gl->Uniform4fv(color + i, 1, shown);
-        gl->Uniform3f(direction + i, (GLfloat)to[0], (GLfloat)to[1], (GLfloat)to[2]);
-    }
-    const double terms[4] = {shade->ambient, shade->diffuse, shade->specular, shade->power};
-    tc_pass_vec4(gl, program, "light_terms", terms);
-}
-
 static void bind_draw(const tc_layers *l, const tc_layers_scene *scene, const tc_geometry *g, enum kind kind,
                       const tc_job *job, GLuint program)
 {
@@ -225,7 +201,7 @@ static void bind_draw(const tc_layers *l, const tc_layers_scene *scene, const tc
         tc_pass_texture(gl, program, "geometry_planes", UNIT_PLANES, GL_TEXTURE_BUFFER, b->planes.texture);
     }
     if (is_lit(scene, g, kind))
-        bind_lights(scene->shade, job, program);
+        tc_light_bind(gl, program, scene->shade);
     if (!is_opaque(g) && l->z)
         tc_pass_texture(gl, program, "opaque_z", UNIT_OPAQUE_Z, GL_TEXTURE_2D, l->z);
 }

@@ -1,6 +1,8 @@
-/* geometry.c: triangles and lines, in depth order with the volume and with each other. */
+/* geometry.c: triangles and lines, in depth order with the volume and with each other; or, where the model makes one colour of
+ * a whole ray, which is nowhere, before it. */
 #include "gpu/effects/effects.h"
 
+#include "gpu/effects/light.h"
 #include "gpu/layers.h"
 #include "gpu/pass.h"
 
@@ -14,7 +16,12 @@ typedef struct state {
     tc_layers layers;
 } state;
 
-static bool wanted(char *why, const tc_effect_scene *scene)
+static bool projects(const tc_look *look)
+{
+    return look->model == TC_MODEL_MAXIMUM || look->model == TC_MODEL_MINIMUM || look->model == TC_MODEL_AVERAGE;
+}
+
+static bool is_there(char *why, const tc_effect_scene *scene)
 {
     size_t triangles = 0, lines = 0;
     for (int i = 0; i < scene->look->n_geometry; i++)
@@ -24,6 +31,16 @@ static bool wanted(char *why, const tc_effect_scene *scene)
         }
     snprintf(why, TC_EFFECT_WHY, "%zu triangles and %zu lines", triangles, lines);
     return triangles + lines > 0;
+}
+
+static bool wanted(char *why, const tc_effect_scene *scene)
+{
+    return is_there(why, scene) && !projects(scene->look);
+}
+
+static bool wanted_before(char *why, const tc_effect_scene *scene)
+{
+    return is_there(why, scene) && projects(scene->look);
 }
 
 static tc_layers_scene layers_scene(const state *s, const tc_effect_scene *scene)
@@ -83,17 +100,14 @@ static void bind(const void *kept, const tc_effect_scene *scene, const tc_job *j
 static void brighten(double most[3], const tc_effect_scene *scene)
 {
     const tc_look *look = scene->look;
-    const tc_shade *shade = &look->shade;
-    for (int i = 0; i < look->n_geometry; i++)
-        for (int k = 0; k < 3; k++) {
-            const tc_geometry *g = &look->geometry[i];
-            double color = g->color[k], light = shade->n_light > 0 ? 0 : 1;
-            for (int n = 0; n < shade->n_light; n++)
-                light += fmax(shade->light[n].color[k], 0);
-            if (g->lit && shade->gradient != TC_GRADIENT_NONE)
-                color = color * fmax(1, shade->ambient + shade->diffuse * light) + shade->specular * light;
-            most[k] = fmax(most[k], color);
-        }
+    for (int i = 0; i < look->n_geometry; i++) {
+        const tc_geometry *g = &look->geometry[i];
+        double color[3] = {g->color[0], g->color[1], g->color[2]};
+        if (g->lit && look->shade.gradient != TC_GRADIENT_NONE)
+            tc_light_brighten(color, &look->shade);
+        for (int k = 0; k < 3; k++)
+            most[k] = fmax(most[k], color[k]);
+    }
 }
 
 const tc_effect tc_effect_geometry = {
@@ -110,4 +124,18 @@ const tc_effect tc_effect_geometry = {
     .finish = finish,
     .bind = bind,
     .brighten = brighten,
+};
+
+const tc_effect tc_effect_geometry_before = {
+    .name = "geometry-before",
+    .what = "triangles and lines before what the model makes of the whole ray",
+    .shaders = "effects/geometry_before.glsl",
+    .wanted = wanted_before,
+    .state_bytes = sizeof(state),
+    .update = update,
+    .compile = compile,
+    .frame = frame,
+    .held = held,
+    .finish = finish,
+    .bind = bind,
 };

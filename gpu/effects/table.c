@@ -19,5 +19,6 @@ const tc_effect *const tc_effect_table[] = {
     &tc_effect_color_field,
     &tc_effect_shade_iso, /* behind what colours them */
     &tc_effect_geometry,
+    &tc_effect_geometry_before,
     NULL,
 };

@@ -184,7 +184,7 @@ static void sheets_are_out_of_order(void **state)
         s.n = 0;
         for (int k = first[i]; k < end[i]; k++)
             add_sheet(&s, &some[k]);
-        check_sheets(what[i], &s, N_VIEW, 3);
+        check_sheets(what[i], &s, i < 2 ? 1 : N_VIEW, i < 2 ? 0 : 3);
     }
 }
 
@@ -260,9 +260,11 @@ static void check_reference(const char *what, tc_mesh *mesh, const tc_camera *ca
     const tc_light light[2] = {{.head = true, .color = {0.5, 0.4, 0.3}}, {.direction = {1, 2, 3}, .color = {0.3, 0.4, 0.5}}};
     look.n_geometry = s.n;
     look.geometry = s.geometry;
+    const bool volume = look.shade.volume;
     tc_shade_defaults(&look.shade);
     look.shade.gradient = TC_GRADIENT_CELL;
-    look.shade.volume = look.shade.surfaces = false;
+    look.shade.volume = volume;
+    look.shade.surfaces = false;
     look.shade.n_light = 2;
     look.shade.light = light;
     tc_render_options options = suite_options(WIDTH, HEIGHT);
@@ -301,6 +303,9 @@ static void sheets_and_what_else_there_is_differ_from_the_reference(void **state
     tc_camera camera = suite_camera(mesh, 0.8, 0.5, 1, true);
     check_reference("beside isosurfaces, matter cut", mesh, &camera, 1, more);
     check_reference("surfaces alone", mesh, &camera, 1, alone);
+    check_reference("in a lit volume", mesh, &camera, 1, (tc_look){.shade = {.volume = true}});
+    check_reference("light that nothing absorbs", mesh, &camera, 1, (tc_look){.model = TC_MODEL_EMISSION});
+    check_reference("before a largest value", mesh, &camera, 1, (tc_look){.model = TC_MODEL_MAXIMUM});
     camera.clip_near = 3, camera.clip_far = 3.6;
     check_reference("between planes of the camera", mesh, &camera, 1, nothing);
     camera = suite_camera(mesh, 0.8, 0.5, 1, false);

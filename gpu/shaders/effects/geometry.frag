@@ -3,6 +3,7 @@
 // lie before the nearest opaque one are kept in lists, one a pixel, which geometry_order.frag puts in order.
 #include "ray.glsl"
 #include "signs.glsl"
+#include "fetch.glsl" //@then march_declare
 
 flat in int item;
 uniform vec4 geometry_color; // r, g, b, opacity
@@ -70,31 +71,6 @@ bool meets(out float z, Ray ray)
 }
 #endif
 
-#ifdef LIGHTS
-uniform vec4 light_color[LIGHTS];     // r, g, b; a: 1 for a light at the eye
-uniform vec3 light_direction[LIGHTS]; // unit, towards it
-uniform vec4 light_terms;             // ambient, diffuse, specular, power
-
-// As tc_shade defines it, two-sided.
-vec3 lit(vec3 color, vec3 normal, vec3 eye)
-{
-    if (normal == vec3(0.0))
-        return color;
-    normal = dot(normal, eye) < 0.0 ? -normal : normal;
-    vec3 sum = light_terms.x * color;
-    for (int i = 0; i < LIGHTS; i++) {
-        vec3 to = light_color[i].a > 0.0 ? eye : light_direction[i];
-        float facing = dot(normal, to);
-        vec3 half_way = to + eye;
-        float l = length(half_way), shine = l > 1.0e-6 ? max(dot(normal, half_way) / l, 0.0) : 0.0;
-        if (facing > 0.0)
-            sum += light_color[i].rgb * (light_terms.y * facing * color +
-                                         light_terms.z * (shine > 0.0 ? pow(shine, light_terms.w) : 0.0));
-    }
-    return sum;
-}
-#endif
-
 void main()
 {
     Ray ray = ray_of_pixel(gl_FragCoord.xy);
@@ -103,7 +79,12 @@ void main()
         discard;
     vec3 color = geometry_color.rgb;
 #ifdef LIGHTS
-    color = lit(color, texelFetch(geometry_planes, item).xyz, -ray.d);
+    vec3 normal = texelFetch(geometry_planes, item).xyz;
+    if (normal != vec3(0.0)) {
+        light_begin(ray);
+        Light light = light_of(normal, ray, false);
+        color = color * light.gain + light.glow;
+    }
 #endif
 #ifdef OPAQUE
     out_color = vec4(color, 1.0);
