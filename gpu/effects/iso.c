@@ -3,6 +3,7 @@
 
 #include "transfer_functions/place.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -55,12 +56,16 @@ static void bind(const void *state, const tc_effect_scene *scene, const tc_job *
     }
 }
 
+/* The function's colours may be others in a model that changes them. */
 static void brighten(double most[3], const tc_effect_scene *scene)
 {
-    for (int i = 0; i < scene->look->n_iso; i++)
-        for (int k = 0; k < 3 && scene->look->iso[i].has_color; k++)
-            if (scene->look->iso[i].color[k] > most[k])
-                most[k] = scene->look->iso[i].color[k];
+    for (int i = 0; i < scene->look->n_iso; i++) {
+        const tc_iso *iso = &scene->look->iso[i];
+        double rgba[4];
+        tc_transfer_evaluate(rgba, scene->transfer, iso->value);
+        for (int k = 0; k < 3; k++)
+            most[k] = fmax(most[k], iso->has_color ? iso->color[k] : rgba[k]);
+    }
 }
 
 const tc_effect tc_effect_iso = {

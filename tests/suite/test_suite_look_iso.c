@@ -168,6 +168,27 @@ static void curved_surfaces_differ_from_the_reference(void **state)
     tc_mesh_destroy(&mesh);
 }
 
+/* Surfaces without a colour of their own have the function's, also where a model changes that for the volume. */
+static void surfaces_in_black_or_white_matter_lose_their_colours(void **state)
+{
+    (void)state;
+    static const tc_knot knots[3] = {{0.1, 0.2, 0.9, 1, 0.2}, {0.4, 0.3, 1, 0.2, 0.1}, {0.9, 1, 0.1, 0, 0.3}};
+    const tc_iso iso[2] = {{.value = 0.35, .opacity = 0.5}, {.value = 0.2, .opacity = 0.7}};
+    tc_look look = {.n_iso = 2, .iso = iso};
+    tc_mesh *mesh = look_box(5, hill, TC_POINT_DATA);
+    tc_transfer *tf = suite_function(knots, 3);
+    tc_camera camera = suite_camera(mesh, 1, 0.3, 0.2, false);
+    tc_render_options options = suite_options(WIDTH, HEIGHT);
+    options.unit_distance = 0.15;
+    options.look = &look;
+    look.model = TC_MODEL_ABSORPTION;
+    suite_check("surfaces in black matter", mesh, tf, &camera, &options);
+    look.model = TC_MODEL_XRAY;
+    suite_check("surfaces in white matter", mesh, tf, &camera, &options);
+    tc_transfer_destroy(&tf);
+    tc_mesh_destroy(&mesh);
+}
+
 static void a_model_without_a_volume_uploads_a_function(void **state)
 {
     (void)state;
@@ -217,6 +238,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_surface_lies_elsewhere),
         cmocka_unit_test(three_surfaces_are_out_of_order),
         cmocka_unit_test(curved_surfaces_differ_from_the_reference),
+        cmocka_unit_test(surfaces_in_black_or_white_matter_lose_their_colours),
         cmocka_unit_test(a_model_without_a_volume_uploads_a_function),
         cmocka_unit_test(values_of_cells_are_given_surfaces),
     };
