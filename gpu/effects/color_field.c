@@ -65,8 +65,19 @@ static tc_status upload_function(colors *c, const tc_field *field, const tc_tran
     double lo = field->range[0], hi = field->range[1];
     c->map[1] = (lo - span[0]) / (span[1] - span[0]);
     c->map[0] = (hi - lo) / (span[1] - span[0]);
-    status = tc_texture_buffer_upload(&c->pieces, gl, pieces.end, 3 * (pieces.n + 1), 16, GL_RGBA32F,
-                                      "uploading the function to colour by", err);
+    float(*end)[4] = tc_alloc(2 * pieces.n, sizeof *end);
+    if (!end)
+        status = tc_fail_memory(err, "the function to colour by", 2 * pieces.n, sizeof *end);
+    for (size_t i = 0; end && i < pieces.n; i++) {
+        end[2 * i][0] = pieces.end[i].x;
+        end[2 * i + 1][0] = pieces.end[i + 1].x;
+        memcpy(end[2 * i] + 1, pieces.end[i].above, 3 * sizeof(float));
+        memcpy(end[2 * i + 1] + 1, pieces.end[i + 1].below, 3 * sizeof(float));
+    }
+    if (end)
+        status = tc_texture_buffer_upload(&c->pieces, gl, end, 2 * pieces.n, sizeof *end, GL_RGBA32F,
+                                          "uploading the function to colour by", err);
+    free(end);
     tc_pieces_finish(&pieces);
     return status;
 }

@@ -22,36 +22,16 @@ vec3 color_after(float rest) // where so much of the part's length is left
 
 //@section parts_declare
 FETCH_FLOATS(6) color_values; // of points, or of cells: 0 … 1 over the field's range
-FETCH_BUFFER(7) color_pieces; // three an end, as tf_pieces
+FETCH_BUFFER(7) color_pieces; // two a piece of the function: x and r, g, b where it begins, and where it ends
 uniform vec2 color_map;       // value → x of the function
 uniform int color_last, color_half; // the last piece; a power of two, at least half their number
 vec2 kept_color_map = vec2(0.0);
 ivec2 kept_color_last = ivec2(0);
 float color_x0 = 0.0, color_x1 = 0.0; // x at the segment's ends; of points: at the faces of its cell
 float color_z0 = 0.0, color_z1 = 0.0; // depths there
-int color_piece = 0;                  // that the ray is in
 vec2 color_x = vec2(0.0);             // x at the ends of what planes left of the segment
-
-float color_end(int end)
-{
-    return fetch(color_pieces, 3 * end).x;
-}
-
-// The piece that x is in: the last that begins at or before it.
-int color_place(float x)
-{
-    int piece = 0;
-    for (int step = kept_color_last.y; step > 0; step /= 2)
-        piece += piece + step <= kept_color_last.x && color_end(min(piece + step, kept_color_last.x)) <= x ? step : 0;
-    return piece;
-}
-
-vec3 color_at(float x)
-{
-    float from = color_end(color_piece), to = color_end(color_piece + 1);
-    vec3 above = fetch(color_pieces, 3 * color_piece + 2).rgb, below = fetch(color_pieces, 3 * (color_piece + 1) + 1).rgb;
-    return mix(above, below, clamp((x - from) / (to - from), 0.0, 1.0));
-}
+int color_piece = 0;                  // that the ray is in,
+float color_here = 0.0;               // … where x is this
 
 #ifdef COLOR_POINTS
 float color_face(Walk w)
@@ -85,30 +65,35 @@ float color_face(Walk w)
     float color_cut0 = color_length_z > 0.0 ? clamp((segment.z0 - color_z0) / color_length_z, 0.0, 1.0) : 0.0;
     float color_cut1 = color_length_z > 0.0 ? clamp((segment.z1 - color_z0) / color_length_z, 0.0, 1.0) : 1.0;
     color_x = mix(vec2(color_x0), vec2(color_x1), vec2(color_cut0, color_cut1));
-    color_piece = color_place(color_x.x);
-    color_to = color_at(color_x.x);
+    // A ray that goes on where it was knows its piece; else it is the last that begins at or before x.
+    bool color_jumps = color_x.x != color_here;
+    color_piece = color_jumps ? 0 : color_piece;
+    for (int step = color_jumps ? kept_color_last.y : 0; step > 0; step /= 2) {
+        int ahead = min(color_piece + step, kept_color_last.x);
+        color_piece = ahead == color_piece + step && fetch(color_pieces, 2 * ahead).x <= color_x.x ? ahead : color_piece;
+    }
+    color_here = segment.real ? color_x.y : color_x.x;
 
 //@section part_cut
+    vec4 color_begin = fetch(color_pieces, 2 * color_piece), color_end = fetch(color_pieces, 2 * color_piece + 1);
     bool color_up = color_x.y > color_x.x;
-    float color_next = color_end(color_up ? color_piece + 1 : color_piece);
+    float color_next = color_up ? color_end.x : color_begin.x, color_width = color_x.y - color_x.x;
     bool color_cuts = parts.whole.real && (color_up ? color_next < color_x.y : color_next > color_x.y);
-    float color_share = clamp((color_next - color_x.x) / (color_x.y - color_x.x), 0.0, 1.0);
+    float color_share = clamp((color_next - color_x.x) / (color_width == 0.0 ? 1.0 : color_width), 0.0, 1.0);
     color_cuts = color_cuts && color_share < to;
     to = color_cuts ? color_share : to;
     end = color_cuts ? PART_COLOR : end;
 
 //@section part_added
-    color_from = color_to;
-    color_to = color_at(end == PART_COLOR ? color_next : mix(color_x.x, color_x.y, parts.to));
+    float color_scale = 1.0 / (color_end.x - color_begin.x);
+    vec2 color_at = vec2(color_x.x) + color_width * vec2(parts.from, parts.to);
+    color_at = clamp((color_at - color_begin.x) * color_scale, 0.0, 1.0);
+    color_from = mix(color_begin.yzw, color_end.yzw, color_at.x);
+    color_to = mix(color_begin.yzw, color_end.yzw, color_at.y);
     color_length = parts.whole.real ? length * march_unit : 0.0;
 
 //@section part_done
-                if (parts.end == PART_COLOR) { // the colour beyond a step
-                    bool up = color_x.y > color_x.x;
-                    int knot = up ? color_piece + 1 : color_piece;
-                    color_to = fetch(color_pieces, 3 * knot + (up ? 2 : 1)).rgb;
-                    color_piece += up ? 1 : -1;
-                }
+                color_piece += parts.end == PART_COLOR ? (color_x.y > color_x.x ? 1 : -1) : 0;
 
 //@section iso_color
                     iso.rgb = iso.r < 0.0 ? color_to : iso.rgb;
