@@ -256,6 +256,32 @@ static void set_values(tc_mesh *mesh, const double value[POINTS])
         fail_msg("%s", err.text);
 }
 
+/* Light falls on the colours of the second field, of surfaces too. */
+static void colors_of_another_field_differ_from_the_reference(void **state)
+{
+    (void)state;
+    static const tc_knot map[4] = {{-0.5, 1, 0, 0, 5}, {0.1, 0, 1, 0, 0}, {0.1, 0, 0, 1, 0}, {0.9, 1, 1, 0, 2}};
+    static const tc_iso iso[2] = {{.value = 0.15, .opacity = 0.5},
+                                  {.value = 0.4, .opacity = 0.8, .has_color = true, .color = {1, 0.9, 0.2}}};
+    tc_mesh *mesh = look_box(SIDE, bowl, TC_POINT_DATA);
+    tc_transfer *colors = suite_function(map, 4);
+    double value[POINTS];
+    tc_field *field = NULL;
+    tc_error err = {0};
+    at_points(value, saddle);
+    if (tc_field_create(&field, mesh, value, TC_POINT_DATA, "other", &err) != TC_OK)
+        fail_msg("%s", err.text);
+    const tc_look look = {.color_field = field,
+                          .color_function = colors,
+                          .n_iso = 2,
+                          .iso = iso,
+                          .shade = shade_of(TC_GRADIENT_VERTEX, false, false, 1)};
+    check("colours of another field", mesh, &look, 0);
+    tc_field_destroy(&field);
+    tc_transfer_destroy(&colors);
+    tc_mesh_destroy(&mesh);
+}
+
 static void gaps_differ_from_the_reference(void **state)
 {
     (void)state;
@@ -441,6 +467,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(points_differ_from_the_reference),
         cmocka_unit_test(cells_differ_from_the_reference),
         cmocka_unit_test(surfaces_in_matter_differ_from_the_reference),
+        cmocka_unit_test(colors_of_another_field_differ_from_the_reference),
         cmocka_unit_test(gaps_differ_from_the_reference),
         cmocka_unit_test(missing_values_differ_from_the_reference),
         cmocka_unit_test(several_rays_a_pixel_differ_from_the_reference),

@@ -53,10 +53,20 @@ void shade_sum(inout Integral integral)
 #ifdef GRADIENT_VERTEX
     Light shade_from = shade_face;
 #ifdef CLIP_NEAR
-    if (segment.z0 > gradient_z0)
-        shade_from = shade_of(gradient_from, ray);
-#endif
+    // A ray is cut once: a second round where one of the group is spares all others the light on its cut.
+    bool shade_cut = segment.z0 > gradient_z0, shade_again;
+    vec3 shade_gradient = shade_cut ? gradient_from : gradient_to;
+    do {
+        shade_face = shade_of(shade_gradient, ray);
+        shade_again = shade_cut;
+        if (shade_cut)
+            shade_from = shade_face;
+        shade_cut = false;
+        shade_gradient = gradient_to;
+    } while (shade_again);
+#else
     shade_face = shade_of(gradient_to, ray);
+#endif
     shade_light.gain = 0.5 * (shade_from.gain + shade_face.gain);
     shade_light.glow = 0.5 * (shade_from.glow + shade_face.glow);
 #else
