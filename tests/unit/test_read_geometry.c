@@ -231,6 +231,7 @@ static void test_a_file_without_a_surface_is_drawn(void **state)
     assert_non_null(strstr(refused_path("/nowhere/x.stl", "x.stl", false), "cannot be opened"));
     assert_non_null(strstr(refused("empty.vtp", ""), "empty"));
     assert_non_null(strstr(refused("a.txt", "hello\n"), "no format that is known"));
+    assert_non_null(strstr(refused("a.off", "OFF\n3 1 0\n"), "meshio convert"));
     assert_non_null(strstr(refused("points.vtk", LEGACY_POINTS "VERTICES 1 2\n1 0\n"), "1 vertex"));
     assert_non_null(strstr(refused("bare.vtk", LEGACY_POINTS), "no cells at all"));
 }
