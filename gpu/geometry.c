@@ -11,7 +11,7 @@ enum { MOST_TRIANGLES = INT32_MAX / 3, MOST_LINES = INT32_MAX / 6 }; /* their co
 
 typedef struct arrays {
     size_t n_vertex, n_triangle, n_line;
-    float *vertex, *plane;  /* [n][4] */
+    float *vertex, *plane;    /* [n][4] */
     int32_t *triangle, *line; /* [n][4] */
 } arrays;
 
@@ -88,7 +88,8 @@ static void add(arrays *out, const tc_geometry *g, const double center[3], doubl
 static tc_status upload(tc_gpu_geometry *g, const tc_gl *gl, const arrays *all, tc_error *err)
 {
     static const char what[] = "uploading the geometry";
-    tc_status status = tc_texture_buffer_upload(&g->vertices, gl, all->vertex, all->n_vertex, 16, GL_RGBA32F, what, err);
+    tc_status status =
+        tc_texture_buffer_upload(&g->vertices, gl, all->vertex, all->n_vertex, 16, GL_RGBA32F, what, err);
     if (status == TC_OK && all->n_triangle)
         status = tc_texture_buffer_upload(&g->triangles, gl, all->triangle, all->n_triangle, 16, GL_RGBA32I, what, err);
     if (status == TC_OK && all->n_triangle)
@@ -109,10 +110,11 @@ static tc_status pack_and_upload(tc_gpu_geometry *g, const tc_gl *gl, const tc_g
         n_line += geometry[i].n_line;
     }
     if (n_vertex > INT32_MAX || n_triangle > MOST_TRIANGLES || n_line > MOST_LINES)
-        return tc_fail(err, TC_E_MEMORY,
-                       "a picture's geometry has %zu vertices, %zu triangles and %zu lines, more than can be drawn; show "
-                       "less of it",
-                       n_vertex, n_triangle, n_line);
+        return tc_fail(
+            err, TC_E_MEMORY,
+            "a picture's geometry has %zu vertices, %zu triangles and %zu lines, more than can be drawn; show "
+            "less of it",
+            n_vertex, n_triangle, n_line);
     tc_status status = TC_OK;
     g->part = tc_calloc((size_t)n, sizeof *g->part);
     all.vertex = tc_alloc(n_vertex, 4 * sizeof *all.vertex);

@@ -49,8 +49,8 @@ static tc_status get_draw(GLuint *program, const tc_layers_scene *scene, const t
         tc_light_define(lights, sizeof lights, scene->shade);
     snprintf(defines, sizeof defines, "#define CLIP_NEAR\n#define CLIP_FAR\n%s%s%s%s%s",
              job->software ? "#define SOFTWARE\n" : "", kind == LINES ? "#define LINES\n" : "",
-             is_opaque(g) ? "#define OPAQUE\n" : "",
-             !is_opaque(g) && has(scene, true) ? "#define BEFORE_OPAQUE\n" : "", lights);
+             is_opaque(g) ? "#define OPAQUE\n" : "", !is_opaque(g) && has(scene, true) ? "#define BEFORE_OPAQUE\n" : "",
+             lights);
     const tc_program_source source = {"effects/geometry.vert", "effects/geometry.frag", defines, NULL,
                                       lit ? "effects/light.glsl" : NULL};
     return tc_program_get(program, job->programs, &source, err);
@@ -151,10 +151,11 @@ static tc_status ensure_nodes(tc_layers *l, size_t n, const tc_job *job, tc_erro
     size_t room = n + n / 4 + NODES_LEAST;
     room = room > most ? most : room;
     if (n >= room)
-        return tc_fail(err, TC_E_MEMORY,
-                       "the geometry has %zu fragments in the picture, %s holds %zu; show less of it, make it opaque or use a "
-                       "smaller --size",
-                       n, gl->renderer, most);
+        return tc_fail(
+            err, TC_E_MEMORY,
+            "the geometry has %zu fragments in the picture, %s holds %zu; show less of it, make it opaque or use a "
+            "smaller --size",
+            n, gl->renderer, most);
     l->bytes -= l->nodes.bytes;
     tc_texture_buffer_finish(&l->nodes, gl);
     tc_status status = tc_texture_buffer_upload(&l->nodes, gl, NULL, NODE_TEXELS * room, NODE_BYTES / NODE_TEXELS,
@@ -166,7 +167,8 @@ static tc_status ensure_nodes(tc_layers *l, size_t n, const tc_job *job, tc_erro
 
 void tc_layers_finish(tc_layers *l, const tc_gl *gl)
 {
-    const GLuint textures[3] = {l->heads, l->color, l->z}, framebuffers[2] = {l->heads_framebuffer, l->opaque_framebuffer};
+    const GLuint textures[3] = {l->heads, l->color, l->z},
+                 framebuffers[2] = {l->heads_framebuffer, l->opaque_framebuffer};
     gl->DeleteTextures(3, textures); /* 0 is ignored */
     gl->DeleteFramebuffers(2, framebuffers);
     gl->DeleteRenderbuffers(1, &l->depth);
@@ -206,10 +208,10 @@ static void bind_draw(const tc_layers *l, const tc_layers_scene *scene, const tc
         tc_pass_texture(gl, program, "opaque_z", UNIT_OPAQUE_Z, GL_TEXTURE_2D, l->z);
 }
 
-/* All geometry that is opaque, or that is not. Of two fragments at one depth that of the earlier geometry counts as nearer,
- * and its triangles before its lines. */
-static tc_status draw(const tc_layers *l, const tc_layers_scene *scene, bool opaque, GLint node_first, const tc_job *job,
-                      tc_error *err)
+/* All geometry that is opaque, or that is not. Of two fragments at one depth that of the earlier geometry counts as
+ * nearer, and its triangles before its lines. */
+static tc_status draw(const tc_layers *l, const tc_layers_scene *scene, bool opaque, GLint node_first,
+                      const tc_job *job, tc_error *err)
 {
     const tc_gl *gl = job->gl;
     GLint before = 0; /* items of earlier geometries */

@@ -19,8 +19,8 @@ static bool is_binary_stl(const char *path, const unsigned char *head, size_t n)
     struct stat st;
     if (n < STL_HEAD || stat(path, &st) != 0)
         return false;
-    const uint32_t facets = (uint32_t)head[80] | (uint32_t)head[81] << 8 | (uint32_t)head[82] << 16 |
-                            (uint32_t)head[83] << 24;
+    const uint32_t facets =
+        (uint32_t)head[80] | (uint32_t)head[81] << 8 | (uint32_t)head[82] << 16 | (uint32_t)head[83] << 24;
     return facets > 0 && (int64_t)st.st_size == STL_HEAD + (int64_t)STL_FACET * facets;
 }
 
@@ -50,8 +50,10 @@ tc_status tc_sniff_triangles(tc_sniffed *out, const char *path, const unsigned c
     else if (tc_sniff_ends(path, ".obj") && has_obj_vertex(head, n))
         out->format = TC_FORMAT_OBJ;
     else if (starts(head, n, "OFF") || tc_sniff_ends(path, ".off") || tc_sniff_ends(path, ".g"))
-        return tc_fail(err, TC_E_FILE, "%s is a surface in a format that is not read (OFF or BYU); convert it: meshio convert "
-                       "%s out.ply", path, path);
+        return tc_fail(err, TC_E_FILE,
+                       "%s is a surface in a format that is not read (OFF or BYU); convert it: meshio convert "
+                       "%s out.ply",
+                       path, path);
     else if (n > 0 && (stl || tc_sniff_ends(path, ".obj") || tc_sniff_ends(path, ".ply")))
         return tc_fail(err, TC_E_FILE,
                        "%s is named like a surface (STL, OBJ or PLY), but its content is not; it is cut short, damaged "

@@ -95,12 +95,12 @@ size_t least_points(int vtk)
     switch (vtk) {
     case 3: // line
         return 2;
-    case 5: // triangle
-    case 7: // polygon
+    case 5:  // triangle
+    case 7:  // polygon
     case 21: // quadratic edge
         return 3;
-    case 8: // pixel
-    case 9: // quad
+    case 8:  // pixel
+    case 9:  // quad
     case 35: // cubic line
         return 4;
     case 22: // quadratic triangle
@@ -173,8 +173,10 @@ void Splitter::add_by_vtk(const Leaf &leaf, vtkIdType number, int dimension)
         list.push_back((int64_t)leaf.first_point + piece->GetId(i));
 }
 
-// Marks what items (corners each) use, and leaves out those with a vertex that is not finite; gives how many these were.
-size_t keep_finite(std::vector<int64_t> &item, size_t corners, const std::vector<double> &point, std::vector<char> &used)
+// Marks what items (corners each) use, and leaves out those with a vertex that is not finite; gives how many these
+// were.
+size_t keep_finite(std::vector<int64_t> &item, size_t corners, const std::vector<double> &point,
+                   std::vector<char> &used)
 {
     size_t kept = 0;
     for (size_t i = 0; i < item.size(); i += corners) {

@@ -13,11 +13,11 @@ struct Surface {
     std::vector<std::string> notes;
 };
 
-// Cells with faces and lines of any kind: strips and polylines fall apart, quads and polygons are split by VTK (the shorter
-// diagonal; ear cutting, as vtkTriangleFilter does), quadratic ones too, those of higher order by their corners. Cells of
-// dimension 3 and 0 and ghosts are left out, as are triangles and lines with a point that is not finite (a note counts
-// them). path is for sentences. Throws a Refusal where point numbers are out of range, or nothing is left.
-// Cost: O(points + cells).
+// Cells with faces and lines of any kind: strips and polylines fall apart, quads and polygons are split by VTK (the
+// shorter diagonal; ear cutting, as vtkTriangleFilter does), quadratic ones too, those of higher order by their
+// corners. Cells of dimension 3 and 0 and ghosts are left out, as are triangles and lines with a point that is not
+// finite (a note counts them). path is for sentences. Throws a Refusal where point numbers are out of range, or nothing
+// is left. Cost: O(points + cells).
 void make_surface(Surface &out, const Gathered &data, const std::string &path);
 
 // Every list of point numbers of a leaf: in order, within its points. To be called before any cell is asked for.

@@ -1,5 +1,5 @@
-/* geometry.c: triangles and lines, in depth order with the volume and with each other; or, where the model makes one colour of
- * a whole ray, which is nowhere, before it. */
+/* geometry.c: triangles and lines, in depth order with the volume and with each other; or, where the model makes one
+ * colour of a whole ray, which is nowhere, before it. */
 #include "gpu/effects/effects.h"
 
 #include "gpu/effects/light.h"

@@ -115,8 +115,9 @@ tc_status tc_geometry_from_mesh(tc_geometry *out, const tc_mesh *mesh, tc_mesh_p
         return tc_fail(err, TC_E_ARG, "tc_geometry_from_mesh: out is NULL");
     *out = (tc_geometry){.opacity = 1, .width = 1};
     if (!mesh || !mesh->prepared)
-        return tc_fail(err, TC_E_ARG, "a mesh must be prepared before its outline or boundary can be told; call "
-                                      "tc_mesh_prepare");
+        return tc_fail(err, TC_E_ARG,
+                       "a mesh must be prepared before its outline or boundary can be told; call "
+                       "tc_mesh_prepare");
     tc_boundary boundary = {0};
     tc_status status;
     switch (part) {

@@ -334,7 +334,7 @@ static const struct {
     Q(GL_UNPACK_SWAP_BYTES, 1),
 #undef Q
 };
-enum { N_QUERY = sizeof queries / sizeof *queries, N_UNIT = 10, N_IMAGE = 16 };
+enum { N_QUERY = sizeof queries / sizeof *queries, N_UNIT = 20, N_IMAGE = 16 };
 
 static const struct {
     GLenum name;
@@ -570,6 +570,27 @@ static void delete_objects(objects *o)
     gl.DeleteTextures(1, &o->texture);
 }
 
+/* An image of geometry, opaque and not, whose lists take textures, images and a buffer of their own. */
+static void draw_geometry(const scene *s, tc_renderer *renderer)
+{
+    tc_geometry g[2];
+    tc_error err = {0};
+    tc_image *image;
+    for (int i = 0; i < 2; i++)
+        if (tc_geometry_from_mesh(&g[i], s->mesh, i ? TC_PART_SURFACE : TC_PART_OUTLINE, &err) != TC_OK)
+            fail_msg("%s", err.text);
+    g[1].opacity = 0.5;
+    const tc_look look = {.n_geometry = 2, .geometry = g};
+    tc_render_options options = s->options;
+    options.look = &look;
+    options.integrator = TC_INTEGRATOR_AUTO;
+    if (tc_render(&image, NULL, renderer, s->mesh, s->tf, &s->camera, &options, NULL, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    tc_image_destroy(&image);
+    tc_geometry_finish(&g[0]);
+    tc_geometry_finish(&g[1]);
+}
+
 static void the_hosts_state_is_changed(void **state)
 {
     scene *s = *state;
@@ -611,6 +632,12 @@ static void the_hosts_state_is_changed(void **state)
         }
         tc_image_destroy(&image);
     }
+    upset(o.texture, o.sampler, o.buffer, o.vertex_array, o.framebuffer);
+    take_state(&before);
+    draw_geometry(s, renderer);
+    take_state(&after);
+    printf("    geometry:\n");
+    wrong += differences(&before, &after);
     upset(o.texture, o.sampler, o.buffer, o.vertex_array, o.framebuffer);
     take_state(&before);
     tc_renderer_destroy(&renderer);

@@ -1,5 +1,5 @@
-/* test_suite_look_geometry.c: triangles and lines are not where they belong, or not in order with the volume and with each
- * other. */
+/* test_suite_look_geometry.c: triangles and lines are not where they belong, or not in order with the volume and with
+ * each other. */
 #include "look.h"
 
 #include <stdlib.h>
@@ -8,8 +8,8 @@
 enum { WIDTH = 72, HEIGHT = 64, MOST_SHEETS = 320 };
 
 static const double KAPPA = 1.5; /* of the matter, per unit length */
-/* Matter of one colour in all of the data's range; nothing in the picture may be brighter than the function, so it has a
- * white end beyond. */
+/* Matter of one colour in all of the data's range; nothing in the picture may be brighter than the function, so it has
+ * a white end beyond. */
 static const tc_knot fog[3] = {{0, 0.8, 0.6, 0.4, 1}, {90, 0.8, 0.6, 0.4, 1}, {100, 1, 1, 1, 1}};
 
 static double ramp(const double *x)
@@ -57,11 +57,11 @@ static void add_sheet(sheets *s, const sheet *one)
 
 static const sheet some[] = {
     {{0.4, 0.5, 0.5}, {0, 0.4, 0.1}, {0, -0.1, 0.35}, {0, 0.9, 0.1}, 0.5},     /* within */
-    {{0.62, 0.45, 0.5}, {0.1, 0.3, 0}, {0, 0, 0.9}, {1, 0.2, 0}, 0.3},        /* through the side */
-    {{1.4, 0.6, 0.6}, {0, 0.7, 0}, {0.1, 0, 0.4}, {0.1, 0, 1}, 0.6},          /* beside the box */
+    {{0.62, 0.45, 0.5}, {0.1, 0.3, 0}, {0, 0, 0.9}, {1, 0.2, 0}, 0.3},         /* through the side */
+    {{1.4, 0.6, 0.6}, {0, 0.7, 0}, {0.1, 0, 0.4}, {0.1, 0, 1}, 0.6},           /* beside the box */
     {{-0.4, 0.2, 0.7}, {0, 0.5, 0.2}, {0.1, -0.1, 0.6}, {0.5, 0.5, 0.1}, 0.7}, /* and on its other side */
-    {{0.5, 0.5, 0.3}, {0.2, 0.1, 0.02}, {-0.1, 0.25, 0}, {0.9, 0.8, 1}, 1},   /* opaque, within */
-    {{0.5, 0.5, 1.3}, {0.2, 0.1, 0.02}, {-0.1, 0.25, 0}, {0.2, 0.8, 0.3}, 1}, /* opaque, beside */
+    {{0.5, 0.5, 0.3}, {0.2, 0.1, 0.02}, {-0.1, 0.25, 0}, {0.9, 0.8, 1}, 1},    /* opaque, within */
+    {{0.5, 0.5, 1.3}, {0.2, 0.1, 0.02}, {-0.1, 0.25, 0}, {0.2, 0.8, 0.3}, 1},  /* opaque, beside */
 };
 enum { N_SOME = sizeof some / sizeof *some };
 
@@ -246,8 +246,8 @@ static void fill_some(sheets *s, const double *bounds)
     }
 }
 
-/* Compares with the reference all pixels of a view of sheets that light falls on; one shows its back. look: what else there
- * is to see. */
+/* Compares with the reference all pixels of a view of sheets that light falls on; one shows its back. look: what else
+ * there is to see. */
 static void check_reference(const char *what, tc_mesh *mesh, const tc_camera *camera, int samples, tc_look look)
 {
     static sheets s;
@@ -257,7 +257,8 @@ static void check_reference(const char *what, tc_mesh *mesh, const tc_camera *ca
     tc_transfer *tf = suite_benchmark(mesh);
     fill_some(&s, report.bounds);
     s.geometry[4].triangle = turned;
-    const tc_light light[2] = {{.head = true, .color = {0.5, 0.4, 0.3}}, {.direction = {1, 2, 3}, .color = {0.3, 0.4, 0.5}}};
+    const tc_light light[2] = {{.head = true, .color = {0.5, 0.4, 0.3}},
+                               {.direction = {1, 2, 3}, .color = {0.3, 0.4, 0.5}}};
     look.n_geometry = s.n;
     look.geometry = s.geometry;
     const bool volume = look.shade.volume;
@@ -271,7 +272,8 @@ static void check_reference(const char *what, tc_mesh *mesh, const tc_camera *ca
     options.samples = samples;
     options.look = &look;
     tc_image *image = suite_render(NULL, mesh, tf, camera, &options);
-    const tc_verify_result result = suite_verify(what, SUITE_HALF_STEP, WIDTH * HEIGHT, image, mesh, tf, camera, &options);
+    const tc_verify_result result =
+        suite_verify(what, SUITE_HALF_STEP, WIDTH * HEIGHT, image, mesh, tf, camera, &options);
     assert_int_equal(result.pixels, WIDTH * HEIGHT);
     tc_image_destroy(&image);
     tc_transfer_destroy(&tf);
@@ -290,7 +292,8 @@ static void lit_sheets_among_gaps_differ_from_the_reference(void **state)
     tc_mesh_destroy(&mesh);
 }
 
-/* The eye amidst the sheets, a camera that cuts them, matter cut by a plane (which leaves geometry whole), isosurfaces. */
+/* The eye amidst the sheets, a camera that cuts them, matter cut by a plane (which leaves geometry whole), isosurfaces.
+ */
 static void sheets_and_what_else_there_is_differ_from_the_reference(void **state)
 {
     (void)state;
@@ -376,8 +379,13 @@ static void a_line_has_another_width(void **state)
     const double pixel = 2 * camera.parallel_scale / HEIGHT;
     size_t seen = 0, wrong = 0;
     for (int w = 0; w < 4; w++) {
-        const tc_geometry g = {.n_vertex = 6, .n_line = 3, .vertex = vertex, .line = line, .color = {1, 0, 1},
-                               .opacity = 1, .width = widths[w]};
+        const tc_geometry g = {.n_vertex = 6,
+                               .n_line = 3,
+                               .vertex = vertex,
+                               .line = line,
+                               .color = {1, 0, 1},
+                               .opacity = 1,
+                               .width = widths[w]};
         const tc_look look = {.n_geometry = 1, .geometry = &g};
         const tc_render_options options = options_of(&look);
         tc_image *image = suite_render(NULL, mesh, tf, &camera, &options);
@@ -421,8 +429,13 @@ static void a_line_lies_at_another_depth(void **state)
     size_t seen = 0;
     for (int view = 0; view < 4; view++) {
         const int k = view % 2;
-        const tc_geometry g = {.n_vertex = 4, .n_line = 1, .vertex = vertex, .line = lines[k], .color = {1, 1, 1},
-                               .opacity = 0.999, .width = 1};
+        const tc_geometry g = {.n_vertex = 4,
+                               .n_line = 1,
+                               .vertex = vertex,
+                               .line = lines[k],
+                               .color = {1, 1, 1},
+                               .opacity = 0.999,
+                               .width = 1};
         const tc_look look = {.n_geometry = 1, .geometry = &g};
         tc_camera camera = suite_camera(mesh, 0.2, 0.1, 1, view / 2);
         const tc_render_options options = options_of(&look);
@@ -536,17 +549,15 @@ int main(int argc, char **argv)
         cmocka_unit_test(moved_vertices_are_not_seen),
     };
     const struct CMUnitTest with_triangles[] = {
-        cmocka_unit_test(sheets_are_out_of_order),
-        cmocka_unit_test(sheets_at_one_place_change_their_order),
-        cmocka_unit_test(a_stack_loses_layers),
-        cmocka_unit_test(geometry_stays_behind),
+        cmocka_unit_test(sheets_are_out_of_order),     cmocka_unit_test(sheets_at_one_place_change_their_order),
+        cmocka_unit_test(a_stack_loses_layers),        cmocka_unit_test(geometry_stays_behind),
         cmocka_unit_test(moved_vertices_are_not_seen),
     };
     if (!suite_begin(argc, argv))
         return SUITE_SKIPPED;
     /* The reference draws no lines, and is not its own judge. */
-    const int failed = suite_is_gpu() ? cmocka_run_group_tests(tests, NULL, NULL)
-                                      : cmocka_run_group_tests(with_triangles, NULL, NULL);
+    const int failed =
+        suite_is_gpu() ? cmocka_run_group_tests(tests, NULL, NULL) : cmocka_run_group_tests(with_triangles, NULL, NULL);
     suite_end();
     return failed;
 }

@@ -109,16 +109,18 @@ static void check(tc_geometry g, size_t n_vertex, size_t n_triangle, size_t n_li
     tc_geometry_finish(&g);
 }
 
-/* A point that nothing uses; a strip of the unit square; an L of 3 squares, not convex; a line of two pieces; a vertex. */
+/* A point that nothing uses; a strip of the unit square; an L of 3 squares, not convex; a line of two pieces; a vertex.
+ */
 #define LEGACY_POINTS                                                                                                  \
-    "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 13 double\n9 9 9  0 0 0  1 0 0  0 1 0  1 1 0\n"     \
+    "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 13 double\n9 9 9  0 0 0  1 0 0  0 1 0  1 1 0\n"    \
     "0 0 5  2 0 5  2 1 5  1 1 5  1 2 5  0 2 5  0 0 7  3 4 7\n"
 
 static void test_polygons_strips_or_lines_of_legacy_files_are_missed(void **state)
 {
     (void)state;
-    tc_geometry g = read_text("all.vtk", LEGACY_POINTS "VERTICES 1 2\n1 0\nLINES 1 4\n3 1 11 12\n"
-                                                       "POLYGONS 1 7\n6 5 6 7 8 9 10\nTRIANGLE_STRIPS 1 5\n4 1 2 3 4\n");
+    tc_geometry g =
+        read_text("all.vtk", LEGACY_POINTS "VERTICES 1 2\n1 0\nLINES 1 4\n3 1 11 12\n"
+                                           "POLYGONS 1 7\n6 5 6 7 8 9 10\nTRIANGLE_STRIPS 1 5\n4 1 2 3 4\n");
     /* A strip's triangles are all wound alike. */
     for (size_t i = 0; i < g.n_triangle; i++) {
         const double *a = g.vertex + 3 * g.triangle[3 * i], *b = g.vertex + 3 * g.triangle[3 * i + 1],
@@ -131,19 +133,20 @@ static void test_polygons_strips_or_lines_of_legacy_files_are_missed(void **stat
 static void test_polydata_in_xml_is_missed(void **state)
 {
     (void)state;
-    check(read_text("a.vtp",
-                    "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
-                    "<Piece NumberOfPoints=\"4\" NumberOfVerts=\"0\" NumberOfLines=\"1\" NumberOfStrips=\"0\" "
-                    "NumberOfPolys=\"1\">\n"
-                    "<PointData><DataArray type=\"Float32\" Name=\"h\" format=\"ascii\">1 2 3 4</DataArray></PointData>\n"
-                    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 2 0 0 2 2 0 "
-                    "0 2 0</DataArray></Points>\n"
-                    "<Lines><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 2</DataArray>\n"
-                    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">2</DataArray></Lines>\n"
-                    "<Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray>\n"
-                    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4</DataArray></Polys>\n"
-                    "</Piece></PolyData></VTKFile>\n"),
-          4, 2, 1, 4, sqrt(8));
+    check(
+        read_text("a.vtp",
+                  "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
+                  "<Piece NumberOfPoints=\"4\" NumberOfVerts=\"0\" NumberOfLines=\"1\" NumberOfStrips=\"0\" "
+                  "NumberOfPolys=\"1\">\n"
+                  "<PointData><DataArray type=\"Float32\" Name=\"h\" format=\"ascii\">1 2 3 4</DataArray></PointData>\n"
+                  "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 2 0 0 2 2 0 "
+                  "0 2 0</DataArray></Points>\n"
+                  "<Lines><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 2</DataArray>\n"
+                  "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">2</DataArray></Lines>\n"
+                  "<Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray>\n"
+                  "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4</DataArray></Polys>\n"
+                  "</Piece></PolyData></VTKFile>\n"),
+        4, 2, 1, 4, sqrt(8));
 }
 
 static void put_floats(FILE *f, const float *v, size_t n)
@@ -275,8 +278,8 @@ static void test_cells_with_too_few_points_are_asked_for_more(void **state)
 static void test_counts_that_cannot_be_are_believed(void **state)
 {
     (void)state;
-    static const char *const count[] = {"POLYGONS 4000000000000 16000000000000", "POLYGONS 1 4000000000000", "LINES 7 1",
-                                        "TRIANGLE_STRIPS 4 -5"};
+    static const char *const count[] = {"POLYGONS 4000000000000 16000000000000", "POLYGONS 1 4000000000000",
+                                        "LINES 7 1", "TRIANGLE_STRIPS 4 -5"};
     for (size_t i = 0; i < sizeof count / sizeof *count; i++) {
         char text[1024];
         snprintf(text, sizeof text, LEGACY_POINTS "%s\n3 1 2 3\n", count[i]);

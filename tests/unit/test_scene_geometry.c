@@ -159,8 +159,14 @@ static void test_geometry_that_cannot_be_drawn_passes(void **state)
     (void)state;
     double vertex[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     int32_t triangle[3] = {0, 1, 2}, line[4] = {0, 1, 1, 2};
-    const tc_geometry good = {.n_vertex = 3, .n_triangle = 1, .n_line = 2, .vertex = vertex, .triangle = triangle,
-                              .line = line, .opacity = 1, .width = 1};
+    const tc_geometry good = {.n_vertex = 3,
+                              .n_triangle = 1,
+                              .n_line = 2,
+                              .vertex = vertex,
+                              .triangle = triangle,
+                              .line = line,
+                              .opacity = 1,
+                              .width = 1};
     char why[256];
     assert_null(tc_geometry_wrong(why, sizeof why, &good));
     tc_geometry g = good;
