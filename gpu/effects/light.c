@@ -87,6 +87,8 @@ static bool wanted(char *why, const tc_effect_scene *scene)
     int n = count(&look->shade);
     snprintf(why, TC_EFFECT_WHY, "%d light%s on %s%s%s", n, n == 1 ? "" : "s", volume ? "the volume" : "",
              volume && surfaces ? " and " : "", surfaces ? "isosurfaces" : "");
+    if (!volume && !surfaces)
+        snprintf(why, TC_EFFECT_WHY, "no light");
     return volume || surfaces;
 }
 

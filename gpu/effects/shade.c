@@ -25,8 +25,12 @@ typedef struct gradients {
 
 static bool gradient_wanted(char *why, const tc_effect_scene *scene)
 {
-    snprintf(why, TC_EFFECT_WHY, "light falls by those of %s", is_smooth(scene) ? "vertices" : "cells");
-    return tc_look_lights_volume(scene->look) || tc_look_lights_surfaces(scene->look);
+    bool is = tc_look_lights_volume(scene->look) || tc_look_lights_surfaces(scene->look);
+    snprintf(why, TC_EFFECT_WHY, "%s",
+             !is                ? "no light"
+             : is_smooth(scene) ? "light falls by those of vertices"
+                                : "light falls by those of cells");
+    return is;
 }
 
 static void gradient_define(char *out, size_t capacity, const tc_effect_scene *scene)
@@ -91,8 +95,9 @@ const tc_effect tc_effect_gradient = {
 
 static bool shade_wanted(char *why, const tc_effect_scene *scene)
 {
-    snprintf(why, TC_EFFECT_WHY, "light on the volume");
-    return tc_look_lights_volume(scene->look);
+    bool is = tc_look_lights_volume(scene->look);
+    snprintf(why, TC_EFFECT_WHY, "the volume is %slit", is ? "" : "not ");
+    return is;
 }
 
 static void shade_bind(const void *state, const tc_effect_scene *scene, const tc_job *job, GLuint program)
@@ -112,7 +117,7 @@ static void shade_brighten(double most[3], const tc_effect_scene *scene)
 
 const tc_effect tc_effect_shade = {
     .name = "shade",
-    .what = "light on the volume",
+    .what = "light on what a ray gathers in each cell",
     .shaders = "effects/shade.glsl",
     .wanted = shade_wanted,
     .bind = shade_bind,
@@ -123,13 +128,14 @@ const tc_effect tc_effect_shade = {
 
 static bool iso_wanted(char *why, const tc_effect_scene *scene)
 {
-    snprintf(why, TC_EFFECT_WHY, "light on isosurfaces");
-    return tc_look_lights_surfaces(scene->look);
+    bool is = tc_look_lights_surfaces(scene->look);
+    snprintf(why, TC_EFFECT_WHY, "isosurfaces are %slit", is ? "" : "not ");
+    return is;
 }
 
 const tc_effect tc_effect_shade_iso = {
     .name = "shade-isosurfaces",
-    .what = "light on isosurfaces",
+    .what = "light on isosurfaces where the ray crosses them",
     .shaders = "effects/shade_iso.glsl",
     .wanted = iso_wanted,
     .brighten = shade_brighten,

@@ -185,7 +185,7 @@ static void check(const char *what, const tc_mesh *mesh, const tc_look *look, in
     tc_render_options options = suite_options(WIDTH, HEIGHT);
     options.unit_distance = 0.2;
     options.look = look;
-    options.steps_per_pass = v == 0 ? 7 : v == 1 ? 1 : 0;
+    options.steps_per_pass = v == 0 ? 7 : v == 2 ? 1 : 0;
     if (v == 1 && look->n_iso == 0)
         options.integrator = TC_INTEGRATOR_INTEGRAL; /* leaves some segments to pieces, which are added later */
     suite_check(what, mesh, tf, &camera, &options);
@@ -319,6 +319,32 @@ static void missing_values_differ_from_the_reference(void **state)
         options.has_nan_color = way;
         memcpy(options.nan_color, violet, sizeof violet);
         suite_check("missing values", mesh, tf, &camera, &options);
+    }
+    tc_transfer_destroy(&tf);
+    tc_mesh_destroy(&mesh);
+}
+
+/* Rays that end early are many to a group, and end one after another. */
+static void what_is_left_is_lit_as_another_ray(void **state)
+{
+    (void)state;
+    tc_mesh *mesh = look_box(SIDE, bowl, TC_POINT_DATA);
+    tc_transfer *tf = suite_function(hills, 5);
+    for (int way = 0; way < 2; way++) {
+        const tc_look look = {.shade = shade_of(way ? TC_GRADIENT_CELL : TC_GRADIENT_VERTEX, false, false, 1)};
+        tc_camera camera = suite_camera(mesh, 0.3, 0.5, 1, false);
+        tc_render_options options = suite_options(WIDTH, HEIGHT);
+        options.unit_distance = 0.1;
+        options.opacity_stop = 0.7;
+        options.integrator = TC_INTEGRATOR_INTEGRAL;
+        options.look = &look;
+        tc_image *together = suite_render(NULL, mesh, tf, &camera, &options);
+        options.steps_per_pass = 1;
+        tc_image *apart = suite_render(NULL, mesh, tf, &camera, &options);
+        suite_say("rays of a group: %.2g apart", suite_difference(together, apart));
+        assert_true(suite_difference(together, apart) < 1e-5);
+        tc_image_destroy(&together);
+        tc_image_destroy(&apart);
     }
     tc_transfer_destroy(&tf);
     tc_mesh_destroy(&mesh);
@@ -470,6 +496,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(colors_of_another_field_differ_from_the_reference),
         cmocka_unit_test(gaps_differ_from_the_reference),
         cmocka_unit_test(missing_values_differ_from_the_reference),
+        cmocka_unit_test(what_is_left_is_lit_as_another_ray),
         cmocka_unit_test(several_rays_a_pixel_differ_from_the_reference),
         cmocka_unit_test(new_values_are_lit_by_old_gradients),
         cmocka_unit_test(level_values_are_lit),

@@ -5,6 +5,7 @@
 uniform float shade_soft; // gradients far below it leave colours as they are
 float shade_kept_soft = 0.0;
 Light shade_light = LIGHT_NONE; // on the part
+Light shade_last = LIGHT_NONE;  // on the part behind which a ray leaves the loop over steps to have something added
 #ifdef GRADIENT_VERTEX
 Light shade_face = LIGHT_NONE; // where the ray meets the walk's face
 #endif
@@ -36,10 +37,10 @@ void shade_keep(Integral integral)
 }
 
 // Lights what was added since.
-void shade_sum(inout Integral integral)
+void shade_sum(inout Integral integral, Light light)
 {
-    integral.sum.rgb = shade_rgb + (integral.sum.rgb - shade_rgb) * shade_light.gain +
-                       shade_light.glow * (shade_clear - integral.sum.transmittance);
+    integral.sum.rgb =
+        shade_rgb + (integral.sum.rgb - shade_rgb) * light.gain + light.glow * (shade_clear - integral.sum.transmittance);
     shade_keep(integral);
 }
 
@@ -77,13 +78,18 @@ void shade_sum(inout Integral integral)
     shade_keep(integral);
 
 //@section part_done
-                shade_sum(integral);
+                shade_sum(integral, shade_light);
+                // Carried from round to round: of a light made anew in each, llvmpipe keeps, behind the loop, that of the
+                // round in which the last lane left.
+                bool shade_leaves = integral_waits(integral) || integral_transmittance(integral) <= march_least;
+                shade_last.gain = shade_leaves ? shade_light.gain : shade_last.gain;
+                shade_last.glow = shade_leaves ? shade_light.glow : shade_last.glow;
 
 //@section march_settled
-    shade_sum(integral);
+    shade_sum(integral, shade_last);
 
 //@section march_rest
     shade_keep(integral);
 
 //@section march_end
-    shade_sum(integral);
+    shade_sum(integral, shade_last);
