@@ -110,6 +110,7 @@ performance:
 
 docs: all performance
 	sh docs/figures.sh $(BUILD)/tetcast
+	/usr/bin/python3 docs/gallery.py $(BUILD)/tetcast
 	/usr/bin/python3 docs/accuracy.py $(BUILD)/tetcast $(BUILD)/accuracy $(ACCURACY_ARGS)
 	@mkdir -p $(BUILD)/docs
 	@for page in docs/man/*.1; do \
