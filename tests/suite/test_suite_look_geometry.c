@@ -1,5 +1,6 @@
 /* test_suite_look_geometry.c: triangles and lines are not where they belong, or not in order with the volume and with
  * each other. */
+#define _GNU_SOURCE
 #include "look.h"
 
 #include <stdlib.h>
@@ -508,6 +509,37 @@ static void geometry_stays_behind(void **state)
     tc_mesh_destroy(&mesh);
 }
 
+/* More fragments than a buffer holds: said, and the next picture is as it should be. */
+static void too_many_fragments_are_drawn(void **state)
+{
+    (void)state;
+    static sheets s;
+    tc_mesh *mesh = look_box(2, ramp, TC_POINT_DATA);
+    tc_transfer *tf = suite_function(fog, 3);
+    tc_camera camera = suite_camera(mesh, 0.3, 0.2, 1, false);
+    tc_image *image;
+    tc_error err = {0};
+    assert_int_equal(setenv("TETCAST_GL_TEXELS", "6000", 1), 0);
+    tc_renderer *renderer = suite_renderer(NULL);
+    unsetenv("TETCAST_GL_TEXELS");
+    s.n = 0;
+    for (int i = 0; i < 20; i++)
+        add_sheet(&s, &some[1]);
+    tc_look look = {.n_geometry = s.n, .geometry = s.geometry};
+    tc_render_options options = options_of(&look);
+    assert_int_equal(tc_render(&image, NULL, renderer, mesh, tf, &camera, &options, NULL, &err), TC_E_MEMORY);
+    assert_non_null(strstr(err.text, "fragments"));
+    look.n_geometry = 1;
+    tc_image *one = suite_render_by(NULL, renderer, mesh, tf, &camera, &options);
+    tc_image *other = suite_render(NULL, mesh, tf, &camera, &options);
+    assert_true(suite_difference(one, other) == 0);
+    tc_image_destroy(&one);
+    tc_image_destroy(&other);
+    tc_renderer_destroy(&renderer);
+    tc_transfer_destroy(&tf);
+    tc_mesh_destroy(&mesh);
+}
+
 /* Arrays that change in place, and back. */
 static void moved_vertices_are_not_seen(void **state)
 {
@@ -546,6 +578,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_line_has_another_width),
         cmocka_unit_test(a_line_lies_at_another_depth),
         cmocka_unit_test(geometry_stays_behind),
+        cmocka_unit_test(too_many_fragments_are_drawn),
         cmocka_unit_test(moved_vertices_are_not_seen),
     };
     const struct CMUnitTest with_triangles[] = {

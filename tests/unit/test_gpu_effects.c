@@ -108,7 +108,8 @@ static bool look_of(tc_look *look, const tc_transfer **tf, const char *name, con
         look->shade.volume = !look->shade.surfaces;
         look->n_iso = look->shade.surfaces;
         look->iso = &l->iso;
-    } else if (strcmp(name, "geometry") == 0) {
+    } else if (strncmp(name, "geometry", 8) == 0) {
+        look->model = strstr(name, "before") ? TC_MODEL_MAXIMUM : TC_MODEL_DENSITY_EMITTER;
         look->n_geometry = 1;
         look->geometry = &l->geometry;
     } else if (strcmp(name, "empty-space") == 0) {
