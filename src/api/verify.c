@@ -16,6 +16,12 @@ tc_status tc_verify_image(tc_verify_result *out, tc_image **errors, const tc_ima
     if (status == TC_OK && (image->width != options->width || image->height != options->height))
         status = tc_fail(err, TC_E_ARG, "the picture is %dx%d, the options say %dx%d", image->width, image->height,
                          options->width, options->height);
+    for (int i = 0; status == TC_OK && options->look && i < options->look->n_geometry; i++)
+        if (options->look->geometry[i].n_line > 0)
+            status = tc_fail(err, TC_E_ARG,
+                             "the reference draws no lines, and geometry %d of the look has %zu; verify a picture without "
+                             "them",
+                             i, options->look->geometry[i].n_line);
     tc_reference *reference = NULL;
     if (status == TC_OK && errors)
         status = tc_image_create(errors, image->width, image->height, err);

@@ -390,8 +390,12 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
                       "--audit checks the walk from cell to cell, which --driver reference does not do: leave one out");
         return TC_EXIT_USAGE;
     }
-    if ((out->look.outline || out->look.wireframe) && !strcmp(out->driver, "reference")) {
-        tc_talk_error(talk, "--driver reference draws no lines: leave %s out, or the driver",
+    const char *judge = !strcmp(out->driver, "reference") ? "--driver reference"
+                        : out->has_verify                 ? "--verify, the reference that is compared with,"
+                        : out->error > 0                  ? "--error, the reference that is compared with,"
+                                                          : NULL;
+    if ((out->look.outline || out->look.wireframe) && judge) {
+        tc_talk_error(talk, "%s draws no lines: leave %s out, or that option", judge,
                       out->look.outline ? "--outline" : "--wireframe");
         return TC_EXIT_USAGE;
     }

@@ -121,6 +121,7 @@ wrong 2 "gives the value 1 twice" --categories "1:1,0,0;1:0,0,0"
 wrong 1 "no preset with IndexedColors" --categories two.json
 wrong 2 "--color-bar-place is of --color-bar" --color-bar-place left
 wrong 2 "--driver reference draws no lines" --wireframe
+wrong 2 "--verify, the reference that is compared with, draws no lines" --driver auto --outline --verify 10
 wrong 2 "OPACITY from 0 to 1" --geometry a.stl,2
 wrong 1 "none.stl" --geometry none.stl
 wrong 2 "two.vtk: 'Material' is cell data" --field Material --iso 1
