@@ -32,6 +32,12 @@ enum {
     TC_UNIT_EFFECT_LAYERS = 16,  /* geometry */
 };
 
+/* How many cells of a mesh lie deep in empty space (effects/empty.c), and of which mesh, values and function: serials. */
+typedef struct tc_empty_count {
+    uint64_t mesh, scalar, function;
+    size_t n;
+} tc_empty_count;
+
 /* What rows are asked about. */
 typedef struct tc_effect_scene {
     const tc_mesh *mesh;
@@ -41,6 +47,7 @@ typedef struct tc_effect_scene {
     double center[3], scale, scalar[2]; /* as tc_pack has them */
     double length_unit;                 /* as tc_job has it */
     int threads;
+    tc_empty_count *empty; /* the last one, kept with the renderer so that it is not counted at each frame; NULL: not kept */
 } tc_effect_scene;
 
 typedef struct tc_effect {
@@ -97,6 +104,7 @@ typedef struct tc_effects {
 /* What rows keep in a GL context from picture to picture. */
 typedef struct tc_effect_store {
     void *state[TC_EFFECTS_MOST]; /* by place in the table; NULL: nothing */
+    tc_empty_count empty;
     tc_transfer *function;        /* that stands for the picture's */
     uint64_t function_serial;     /* of the one that it was made of, */
     int function_place;           /* … by this row */

@@ -162,29 +162,32 @@ static tc_status add_sections(assembly *a, int *n, const char *name, bool add, i
     return status;
 }
 
-/* What a line's mark says: how long the line is without it, and the place's name; kind 0 none, 't'hen, 'o'r. */
+/* What a line's marks say: how long the line is without them, and the places' names; "": none. */
 typedef struct mark {
     size_t length;
-    char kind, place[64];
+    char or[64], then[64];
 } mark;
+
+/* The name behind a mark that begins at `at`, into name; false where there is no such mark. */
+static bool read_mark(char name[64], const char *at, const char *kind)
+{
+    size_t length = strlen(kind), n;
+    if (strncmp(at, kind, length) != 0)
+        return false;
+    n = strcspn(at + length, " \n");
+    if (n >= 64)
+        return false;
+    memcpy(name, at + length, n);
+    name[n] = 0;
+    return true;
+}
 
 static mark find_mark(const char *p, const char *end)
 {
-    mark m = {(size_t)(end - p), 0, ""};
-    for (const char *at = p; at + 10 < end; at++) {
-        bool then = strncmp(at, " //@then ", 9) == 0, or = strncmp(at, " //@or ", 7) == 0;
-        if (!then && !or)
-            continue;
-        const char *name = at + (then ? 9 : 7);
-        size_t n = strcspn(name, " \n");
-        if (n >= sizeof m.place)
-            continue;
-        memcpy(m.place, name, n);
-        m.place[n] = 0;
-        m.length = (size_t)(at - p);
-        m.kind = then ? 't' : 'o';
-        break;
-    }
+    mark m = {(size_t)(end - p), "", ""};
+    for (const char *at = p; at + 10 < end; at++)
+        if ((read_mark(m.or, at, " //@or ") || read_mark(m.then, at, " //@then ")) && m.length > (size_t)(at - p))
+            m.length = (size_t)(at - p);
     return m;
 }
 
@@ -214,25 +217,24 @@ static tc_status add_lines(assembly *a, int index, const char *p, int line, cons
         const char *next = strchr(p, '\n'), *end = next ? next : p + strlen(p);
         mark m = find_mark(p, end);
         int n = 0;
-        if (m.kind == 'o' && strcmp(taken, m.place) != 0)
-            status = add_sections(a, &n, m.place, false, depth);
+        if (*m.or && strcmp(taken, m.or) != 0)
+            status = add_sections(a, &n, m.or, false, depth);
         if (status == TC_OK && n > 1)
             return tc_fail(a->err, TC_E_GL, "shader %s:%d: two effects take the place %s, or one of them twice",
-                           tc_shader_files[index].name, line, m.place);
-        if (m.kind == 'o' && n == 1) {
-            snprintf(taken, sizeof taken, "%s", m.place);
-            status = add_sections(a, &n, m.place, true, depth);
-        } else if (m.kind == 'o' && strcmp(taken, m.place) == 0 && *taken) {
-            n = 0;
-        } else {
+                           tc_shader_files[index].name, line, m.or);
+        if (*m.or && n == 1) {
+            snprintf(taken, sizeof taken, "%s", m.or);
+            status = add_sections(a, &n, m.or, true, depth);
+        } else if (!*m.or || strcmp(taken, m.or) != 0) {
             if (*taken) { /* the first line behind those that gave way */
                 status = status == TC_OK ? add_line_directive(a, index, line) : status;
                 *taken = 0;
             }
             if (status == TC_OK)
                 status = add_line(a, index, line, p, m.length, depth);
-            if (status == TC_OK && m.kind == 't')
-                status = add_sections(a, &n, m.place, true, depth);
+        }
+        if (status == TC_OK && *m.then) {
+            status = add_sections(a, &n, m.then, true, depth);
             if (status == TC_OK && n > 0)
                 status = add_line_directive(a, index, line + 1);
         }

@@ -40,7 +40,8 @@ void tc_program_cache_destroy(tc_program_cache **cache);
  * replaces include names by others ("integrator.glsl=integrate_table.glsl", with a space between two such pairs).
  *
  * Places. A line of a shader may end in a place for effects: behind "CODE //@then PLACE" their sections of that name are
- * put, in the order of `effects`; lines "CODE //@or PLACE" give way to the section of one of them. A file of an effect
+ * put, in the order of `effects`; lines "CODE //@or PLACE" give way to the section of one of them. A line may
+ * have one of each, in this order: "CODE //@or PLACE //@then PLACE". A file of an effect
  * consists of sections, each from a line "//@section PLACE" to the next, and they hold includes and places in turn; what
  * stands before the first one is for readers. The marks themselves never reach the compiler: with no effects the text is
  * that of shaders without places, byte by byte.

@@ -360,6 +360,7 @@ static tc_status prepare_effects(tc_effects *out, const tc_transfer **function, 
         .scalar = {r->scalar_lo, r->scalar_hi},
         .length_unit = length_unit,
         .threads = r->threads,
+        .empty = &r->effects.empty,
     };
     tc_status status = tc_effects_choose(out, &scene, err);
     if (status == TC_OK)

@@ -1,4 +1,5 @@
-/* emission.c: light without matter: what is emitted reaches the eye whole, and is added to what lies behind (Max 1995). */
+/* emission.c: light without matter: what is emitted reaches the eye whole, and is added to what lies behind (Max 1995).
+ */
 #include "gpu/effects/effects.h"
 
 #include "gpu/pass.h"

@@ -24,7 +24,8 @@ tc_status tc_effect_mask_upload(tc_texture_buffer *out, const tc_gl *gl, const u
     return status;
 }
 
-void tc_effect_mask_bind(const tc_texture_buffer *mask, const tc_job *job, GLuint program, const char *name, GLuint unit)
+void tc_effect_mask_bind(const tc_texture_buffer *mask, const tc_job *job, GLuint program, const char *name,
+                         GLuint unit)
 {
     tc_pass_fetch(job->gl, program, name, job->software ? unit : unit + UNIT_TEXTURES, GL_R32I, mask->texture,
                   job->software);

@@ -1,6 +1,6 @@
-/* projection.c: models that make one number of a ray, of which the picture shows the function's colour: the largest scalar
- * that it meets, the least, the mean over its length. Rays gather numbers; the function is looked at once a ray, where
- * colours are made of them (projection.glsl), as it is: not thinned, and none of its integrals are made. */
+/* projection.c: models that make one number of a ray, of which the picture shows the function's colour: the largest
+ * scalar that it meets, the least, the mean over its length. Rays gather numbers; the function is looked at once a ray,
+ * where colours are made of them (projection.glsl), as it is: not thinned, and none of its integrals are made. */
 #include "gpu/effects/effects.h"
 
 #include "gpu/march.h"

@@ -1,5 +1,5 @@
-/* select.c: cells that a selection does not keep are stepped through, as those of gaps are: a bit a cell says which. Nothing
- * else is packed or sent again. */
+/* select.c: cells that a selection does not keep are stepped through, as those of gaps are: a bit a cell says which.
+ * Nothing else is packed or sent again. */
 #include "gpu/effects/mask.h"
 
 #include "core/hash.h"

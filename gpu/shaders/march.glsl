@@ -45,7 +45,7 @@ uvec4 audit_end()
 {
     return uvec4(floatBitsToUint(audit.length), floatBitsToUint(audit.real), audit.hash, audit.broken);
 }
-#endif
+#endif //@then march_functions
 
 // One step, and its share of the picture, which integral_round may still have to add.
 void march_step(inout Walk w, Ray ray, inout Integral integral)
@@ -53,7 +53,7 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
 #ifdef AUDIT
     audit.broken += walk_holding_faces(w) == 2u ? 0u : 1u;
 #endif
-    Segment segment = walk_step(w, ray); //@then march_segment
+    Segment segment = walk_step(w, ray); //@or march_walk //@then march_segment
 #ifdef CLIP_NEAR
     if (segment.z0 < ray.near) {
         if (segment.z1 > ray.near) {
@@ -144,7 +144,7 @@ int march(inout ivec4 walk, inout vec4 color, inout ivec4 at, vec2 pixel)
 #endif
             if (!open) //@or march_added
                 march_stop(w, integral); //@or march_added
-        } while (GOES_ON && !integral_waits(integral) && walk_fast(w, ray));
+        } while (GOES_ON && !integral_waits(integral) && walk_fast(w, ray)); //@or march_again
     } while (GOES_ON && !integral_waits(integral));
 #ifdef TF_HARD
     integral_settle(integral); // where this makes the ray opaque it ends after its next step //@then march_settled

@@ -1,5 +1,5 @@
-/* test_suite_look_models.c: optical models beside the density emitter, against closed forms along the chords of a box, then
- * against the reference. */
+/* test_suite_look_models.c: optical models beside the density emitter, against closed forms along the chords of a box,
+ * then against the reference. */
 #include "look.h"
 
 #include <stdlib.h>
@@ -56,7 +56,8 @@ static tc_camera camera_of(const tc_mesh *mesh, const struct view *view)
     return camera;
 }
 
-/* Adds a stretch of that length over which the scalar runs linearly from one value to another: exactly, knot by knot. */
+/* Adds a stretch of that length over which the scalar runs linearly from one value to another: exactly, knot by knot.
+ */
 static void add_stretch(double light[3], double *depth, double from, double to, double length)
 {
     double lo = fmin(from, to), hi = fmax(from, to);
@@ -68,8 +69,9 @@ static void add_stretch(double light[3], double *depth, double from, double to, 
         function_at(end[1], b);
         *depth += l * 0.5 * (end[0][3] + end[1][3]);
         for (int k = 0; k < 3; k++) /* Simpson */
-            light[k] += l / 6 * (end[0][k] * end[0][3] + end[1][k] * end[1][3] +
-                                 (end[0][k] + end[1][k]) * (end[0][3] + end[1][3]));
+            light[k] +=
+                l / 6 *
+                (end[0][k] * end[0][3] + end[1][k] * end[1][3] + (end[0][k] + end[1][k]) * (end[0][3] + end[1][3]));
     }
 }
 
@@ -162,9 +164,9 @@ static const struct model {
     tc_model model;
     const char *name;
     double bound; /* of the largest and the least, exact to float: colours rise by 4 over the scalar's range */
-} models[] = {{TC_MODEL_EMISSION, "emission", 1e-4},    {TC_MODEL_ABSORPTION, "absorption", 1e-4},
-              {TC_MODEL_XRAY, "xray", 1e-4},            {TC_MODEL_MAXIMUM, "maximum", 4e-6},
-              {TC_MODEL_MINIMUM, "minimum", 4e-6},      {TC_MODEL_AVERAGE, "average", 2e-5}};
+} models[] = {{TC_MODEL_EMISSION, "emission", 1e-4}, {TC_MODEL_ABSORPTION, "absorption", 1e-4},
+              {TC_MODEL_XRAY, "xray", 1e-4},         {TC_MODEL_MAXIMUM, "maximum", 4e-6},
+              {TC_MODEL_MINIMUM, "minimum", 4e-6},   {TC_MODEL_AVERAGE, "average", 2e-5}};
 enum { N_MODEL = sizeof models / sizeof *models };
 
 static void a_model_sums_up_something_else(void **state)

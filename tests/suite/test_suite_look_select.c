@@ -8,7 +8,8 @@ enum { WIDTH = 48, HEIGHT = 40, PIXELS = WIDTH * HEIGHT, N = 6, SIDE = N + 1 };
 
 static const double KAPPA = 3; /* per unit length */
 static const tc_knot fog[1] = {{0, 0.8, 0.6, 0.4, 1}};
-static const tc_knot steep[4] = {{0, 0.1, 0.2, 0.9, 0.2}, {0.4, 0.9, 0.1, 0.3, 3}, {0.6, 0.3, 0.9, 0.2, 0.4}, {1, 1, 1, 0, 2}};
+static const tc_knot steep[4] = {
+    {0, 0.1, 0.2, 0.9, 0.2}, {0.4, 0.9, 0.1, 0.3, 3}, {0.6, 0.3, 0.9, 0.2, 0.4}, {1, 1, 1, 0, 2}};
 
 static double wave(const double *x)
 {
@@ -66,9 +67,11 @@ static void other_cells_are_kept(void **state)
     tc_mesh *mesh = look_box(N, wave, TC_POINT_DATA);
     tc_field *x = axis_field(mesh, 0, false), *y = axis_field(mesh, 1, true);
     /* Ends are included: whole cubes from 1/6 to 4/6; a cell across two ranges lies in neither. */
-    const double ranges[2][2] = {{1.0 / N - 1e-9, 3.0 / N + 1e-9}, {3.0 / N - 1e-9, 4.0 / N + 1e-9}}, low[1][2] = {{-1, 0.5 + 1e-9}};
+    const double ranges[2][2] = {{1.0 / N - 1e-9, 3.0 / N + 1e-9}, {3.0 / N - 1e-9, 4.0 / N + 1e-9}},
+                 low[1][2] = {{-1, 0.5 + 1e-9}};
     const tc_select select[2] = {{.field = x, .n_range = 2, .range = ranges}, {.field = y, .n_range = 1, .range = low}};
-    const tc_plane plane[4] = {{{1, 0, 0}, 1.0 / N}, {{-1, 0, 0}, -4.0 / N}, {{0, -1, 0}, -0.5}, {{0, 0, -1}, -4.0 / N}};
+    const tc_plane plane[4] = {
+        {{1, 0, 0}, 1.0 / N}, {{-1, 0, 0}, -4.0 / N}, {{0, -1, 0}, -0.5}, {{0, 0, -1}, -4.0 / N}};
     const tc_look one = {.n_select = 1, .select = select}, both = {.n_select = 2, .select = select};
     check_kept("a field along x", mesh, &one, plane, 2);
     check_kept("two fields, one with a hole", mesh, &both, plane, 4);

@@ -26,7 +26,7 @@ static tc_mesh *make_mesh(void)
 /* Looks that turn one row on each, by its name. */
 typedef struct looks {
     tc_mesh *mesh;
-    tc_transfer *tf, *half; /* half: transparent over half of the range */
+    tc_transfer *tf, *clear; /* clear: transparent over the whole range */
     tc_field *field;
     tc_iso iso;
     tc_plane plane;
@@ -43,10 +43,10 @@ static void looks_begin(looks *l)
     l->mesh = make_mesh();
     double lo = l->mesh->report.scalar_range[0], hi = l->mesh->report.scalar_range[1];
     const tc_knot knots[2] = {{lo, 1, 0, 0, 0.1}, {hi, 0, 1, 0, 1}};
-    const tc_knot empty[3] = {{lo, 1, 0, 0, 0}, {0.1 * lo + 0.9 * hi, 1, 0, 0, 0}, {hi, 0, 1, 0, 1}};
+    const tc_knot empty[3] = {{lo, 1, 0, 0, 0}, {hi, 1, 0, 0, 0}, {2 * hi - lo, 0, 1, 0, 1}};
     tc_error err = {0};
     assert_int_equal(tc_transfer_from_knots(&l->tf, knots, 2, &err), TC_OK);
-    assert_int_equal(tc_transfer_from_knots(&l->half, empty, 3, &err), TC_OK);
+    assert_int_equal(tc_transfer_from_knots(&l->clear, empty, 3, &err), TC_OK);
     size_t n = l->mesh->n_vertex_source ? l->mesh->n_vertex_source : l->mesh->n_vertex;
     double *value = calloc(n, sizeof *value);
     assert_non_null(value);
@@ -71,7 +71,7 @@ static void looks_end(looks *l)
 {
     tc_field_destroy(&l->field);
     tc_transfer_destroy(&l->tf);
-    tc_transfer_destroy(&l->half);
+    tc_transfer_destroy(&l->clear);
     tc_mesh_destroy(&l->mesh);
 }
 
@@ -113,7 +113,7 @@ static bool look_of(tc_look *look, const tc_transfer **tf, const char *name, con
         look->n_geometry = 1;
         look->geometry = &l->geometry;
     } else if (strcmp(name, "empty-space") == 0) {
-        *tf = l->half;
+        *tf = l->clear;
     } else {
         return false;
     }
