@@ -48,11 +48,22 @@ bool is_bookkeeping(const std::string &name)
                                         "vtkGhostType",
                                         "vtkGhostLevels",
                                         "vtkBlockColors",
+                                        "vtkCompositeIndex",
                                         "Normals"};
     for (const char *known : names)
         if (name == known)
             return true;
     return false;
+}
+
+const char *const block_array = "vtkCompositeIndex";
+
+// The arrays that number blocks; `--blocks` knows the same (src/cli/look_build.c).
+static bool numbers_blocks(const std::string &name)
+{
+    static const char *const names[] = {"ObjectId", block_array,       "BlockId",              "BlockID",
+                                        "block_id", "ElementBlockIds", "GlobalElementBlockId", "Block"};
+    return std::any_of(std::begin(names), std::end(names), [&](const char *known) { return name == known; });
 }
 
 static bool same_association(tc_association wish, tc_association is)
@@ -99,7 +110,7 @@ static std::string listing(const std::vector<Offered> &offered)
 void require_wanted(const std::string &path, const FieldWish &wish, const std::vector<Offered> &offered)
 {
     for (const Offered &o : offered)
-        if (may_be_wanted(wish, o.name, o.association))
+        if (may_be_wanted(wish, o.name, o.association) && !(wish.any && o.block_numbers))
             return;
     if (wish.any && wish.association == TC_ANY_DATA)
         return;
@@ -141,6 +152,25 @@ void list_read_arrays(std::vector<Offered> &offered, const Gathered &data)
                 o.blocks_without += !array_of(leaf, o.name, o.association) && tuples(leaf, o.association) > 0;
 }
 
+void list_block_numbers(std::vector<Offered> &offered, std::vector<Block> &blocks, const Gathered &data)
+{
+    const bool there = std::any_of(offered.begin(), offered.end(), [](const Offered &o) {
+        return o.association == TC_CELL_DATA && numbers_blocks(o.name);
+    });
+    if (there) { // by VTK: the reader knew of it before it knew of all arrays
+        std::stable_partition(offered.begin(), offered.end(), [](const Offered &o) { return !o.block_numbers; });
+    } else if (data.leaf.size() > 1) {
+        offered.emplace_back();
+        offered.back().name = block_array;
+        offered.back().association = TC_CELL_DATA;
+        offered.back().components = 1;
+        offered.back().component_name = {""};
+        offered.back().block_numbers = true;
+        for (const Leaf &leaf : data.leaf)
+            blocks.push_back({leaf.block, leaf.name});
+    }
+}
+
 // The component, or the magnitude of all.
 static double value_of(vtkDataArray *array, size_t tuple, int component)
 {
@@ -165,6 +195,10 @@ void find_ranges(std::vector<Offered> &offered, const Gathered &data,
         o.hi = -o.lo;
         for (const Leaf &leaf : data.leaf) {
             vtkDataArray *array = array_of(leaf, o.name, o.association);
+            if (!array && o.block_numbers && tuples(leaf, o.association) > 0) {
+                o.lo = std::min(o.lo, (double)leaf.block);
+                o.hi = std::max(o.hi, (double)leaf.block);
+            }
             if (!array)
                 continue;
             const size_t n = tuples(leaf, o.association);
@@ -218,7 +252,7 @@ Chosen choose_field(const std::string &path, const FieldWish &wish, const std::v
     for (int pass = 0; pass < 2 && !best; pass++) {
         for (tc_association association : {TC_POINT_DATA, TC_CELL_DATA}) {
             for (const Offered &o : offered) {
-                if (o.components == 0 || o.association != association ||
+                if (o.components == 0 || (wish.any && o.block_numbers) || o.association != association ||
                     !same_association(wish.association, association))
                     continue;
                 const bool match = wish.any    ? (pass == 1 || !is_bookkeeping(o.name))
@@ -241,6 +275,7 @@ Chosen choose_field(const std::string &path, const FieldWish &wish, const std::v
     chosen.association = best->association;
     chosen.components = best->components;
     chosen.component = best->components > 1 ? -1 : 0;
+    chosen.block_numbers = best->block_numbers;
     if (!whole) {
         chosen.component = component_index(*best, suffix);
         if (chosen.component == -2)
@@ -317,7 +352,8 @@ void cell_values(double *out, const Chosen &chosen, const Gathered &data, const 
             of = k;
         }
         const bool fits = array && array->GetNumberOfComponents() > chosen.component;
-        out[i] = fits ? value_of(array, id - data.leaf[k].first_cell, chosen.component) : no_value;
+        const double without = chosen.block_numbers ? (double)data.leaf[k].block : no_value;
+        out[i] = fits ? value_of(array, id - data.leaf[k].first_cell, chosen.component) : without;
     }
 }
 

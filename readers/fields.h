@@ -20,6 +20,7 @@ struct Offered {
     double lo = 0, hi = 0; // finite range, of the magnitude where components > 1; lo > hi: nothing finite
     size_t blocks_without = 0;
     std::vector<std::string> component_name;
+    bool block_numbers = false; // made by us or by VTK, not the file's own: never taken unless it is asked for
 };
 
 // What the user asked for.
@@ -35,10 +36,14 @@ struct Chosen {
     tc_association association = TC_POINT_DATA;
     int components = 1;
     int component = 0; // -1: magnitude
+    bool block_numbers = false;
 };
 
 // Arrays that number things rather than measure them; never the first choice.
 bool is_bookkeeping(const std::string &name);
+
+// The array of a mesh of several blocks that has none of its own: VTK's flat index, by the name that ParaView gives it.
+extern const char *const block_array;
 
 // May this array be the one that is wanted? (Before reading: the component is not known yet.)
 bool may_be_wanted(const FieldWish &wish, const std::string &name, tc_association association);
@@ -47,6 +52,9 @@ void require_wanted(const std::string &path, const FieldWish &wish, const std::v
 
 // The arrays that the gathered data hold, appended to offered where they are not in it; components filled in.
 void list_read_arrays(std::vector<Offered> &offered, const Gathered &data);
+// Offers the block's number of each cell, last, where there are several blocks and no array of such numbers, and names
+// them in blocks; where offered holds numbers that VTK makes, blocks has been filled.
+void list_block_numbers(std::vector<Offered> &offered, std::vector<Block> &blocks, const Gathered &data);
 // Ranges of the arrays that were read and for which wanted is true.
 void find_ranges(std::vector<Offered> &offered, const Gathered &data,
                  const std::function<bool(const Offered &)> &wanted);

@@ -9,6 +9,8 @@
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkIdList.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
@@ -18,27 +20,42 @@
 namespace tetcast
 {
 
-static void add_leaf(Gathered &out, vtkDataObject *object)
+static void add_leaf(Gathered &out, vtkDataObject *object, unsigned block, const char *name)
 {
     vtkDataSet *data = vtkDataSet::SafeDownCast(object);
     if (!data || data->GetNumberOfPoints() == 0)
         return;
-    out.leaf.push_back({data, out.n_point, out.n_cell});
+    out.leaf.push_back({data, out.n_point, out.n_cell, block, name ? name : ""});
     out.n_point += (size_t)data->GetNumberOfPoints();
     out.n_cell += (size_t)data->GetNumberOfCells();
 }
 
-void gather_leaves(Gathered &out, vtkDataObject *data)
+// Gives the index behind the last leaf, where the root's is base.
+static unsigned add_leaves(Gathered &out, vtkDataObject *data, unsigned base)
 {
     vtkCompositeDataSet *composite = vtkCompositeDataSet::SafeDownCast(data);
+    unsigned last = 0;
     if (!composite) {
-        add_leaf(out, data);
-        return;
+        add_leaf(out, data, base, nullptr);
+        return base + 1;
     }
     vtkSmartPointer<vtkCompositeDataIterator> it;
     it.TakeReference(composite->NewIterator());
-    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
-        add_leaf(out, it->GetCurrentDataObject());
+    it->SkipEmptyNodesOff(); // they count
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
+        last = it->GetCurrentFlatIndex();
+        const char *name =
+            it->HasCurrentMetaData() ? it->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME()) : nullptr;
+        add_leaf(out, it->GetCurrentDataObject(), base + last, name);
+    }
+    return base + last + 1;
+}
+
+void gather_leaves(Gathered &out, const std::vector<vtkSmartPointer<vtkDataObject>> &data)
+{
+    unsigned base = data.size() > 1;
+    for (const auto &object : data)
+        base = add_leaves(out, object, base);
 }
 
 bool is_ghost(const Leaf &leaf, size_t cell)

@@ -4,12 +4,11 @@
 
 #include "tets.h"
 
+#include <vtkDataObject.h>
 #include <vtkDataSet.h>
 #include <vtkSmartPointer.h>
 
 #include <map>
-
-class vtkDataObject;
 
 namespace tetcast
 {
@@ -17,6 +16,14 @@ namespace tetcast
 struct Leaf {
     vtkSmartPointer<vtkDataSet> data;
     size_t first_point, first_cell; // numbers of its point 0 and cell 0 in the whole
+    unsigned block;                 // VTK's flat index: nodes of the tree before it, the root is 0
+    std::string name;               // of the block; "": it has none
+};
+
+// A block by what the array of block numbers calls it.
+struct Block {
+    int64_t number;
+    std::string name; // "": it has none
 };
 
 struct Gathered {
@@ -28,8 +35,8 @@ struct Gathered {
     size_t n_curved = 0;           // of dimension 3, with nodes beyond the corners
 };
 
-// Appends the leaves of data (any nesting; null blocks and tables are skipped).
-void gather_leaves(Gathered &out, vtkDataObject *data);
+// The leaves of data (any nesting; null blocks and tables are skipped). Several files are counted as blocks of one tree.
+void gather_leaves(Gathered &out, const std::vector<vtkSmartPointer<vtkDataObject>> &data);
 
 // Counts the cells by type and checks every point number. path is for the sentence.
 void count_cells(Gathered &out, const std::string &path);

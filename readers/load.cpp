@@ -158,7 +158,8 @@ static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sni
     }
     reader->open(talk);
     const std::vector<Offered> offered = reader->arrays();
-    if (!offered.empty() && !request.surface)
+    const bool of_blocks = !request.field.any && may_be_wanted(request.field, block_array, TC_CELL_DATA); // we make it
+    if (!offered.empty() && !request.surface && !of_blocks)
         require_wanted(path, request.field, offered);
     reader->select(request.field, request.all_ranges);
     const std::vector<double> times = reader->times();
@@ -171,6 +172,10 @@ static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sni
         if (std::none_of(out.offered.begin(), out.offered.end(),
                          [&](const Offered &p) { return p.name == o.name && p.association == o.association; }))
             out.offered.push_back(o);
+    for (const Block &b : reader->blocks())
+        if (std::none_of(out.blocks.begin(), out.blocks.end(),
+                         [&](const Block &c) { return c.number == b.number && c.name == b.name; }))
+            out.blocks.push_back(b);
     out.notes.insert(out.notes.end(), reader->notes.begin(), reader->notes.end());
     if (!in_series) {
         out.times = times;

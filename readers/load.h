@@ -39,6 +39,7 @@ class Reader
     virtual ~Reader() = default;
     virtual void open(VtkTalk &talk); // reads what is needed to list arrays and times
     virtual std::vector<Offered> arrays() const;
+    virtual std::vector<Block> blocks() const { return {}; } // where arrays() has their numbers
     virtual std::vector<double> times() const;
     virtual void select(const FieldWish &wish, bool all);
     virtual vtkSmartPointer<vtkDataObject> read(VtkTalk &talk, bool has_time, double time);
@@ -68,6 +69,7 @@ struct Loaded {
     std::string format, reader;
     std::vector<vtkSmartPointer<vtkDataObject>> data; // one per file
     std::vector<Offered> offered;                     // known before reading; complete them with list_read_arrays
+    std::vector<Block> blocks;                        // as those of each reader
     std::vector<double> times;
     int step = -1;
     std::vector<std::string> notes;

@@ -78,7 +78,7 @@ class ExodusReader : public NamedReader<vtkExodusIIReader, ExodusNames>
   public:
     void open(VtkTalk &talk) override
     {
-        reader->GenerateObjectIdCellArrayOff();
+        reader->GenerateObjectIdCellArrayOff(); // until it is asked for
         reader->GenerateGlobalElementIdArrayOff();
         reader->GenerateGlobalNodeIdArrayOff();
         Reader::open(talk);
@@ -91,6 +91,46 @@ class ExodusReader : public NamedReader<vtkExodusIIReader, ExodusNames>
             if (o.association == TC_POINT_DATA && head == "dis")
                 notes.push_back("displacements \"" + o.name + "\" are added to the coordinates");
         }
+    }
+    // The block's id of each element, as VTK makes it, where there are several blocks and no variable of that name.
+    std::vector<Offered> arrays() const override
+    {
+        std::vector<Offered> all = NamedReader::arrays();
+        if (reader->GetNumberOfElementBlockArrays() > 1 && !has_own_ids(all)) {
+            all.emplace_back();
+            all.back().name = object_id;
+            all.back().association = TC_CELL_DATA;
+            all.back().block_numbers = true;
+        }
+        return all;
+    }
+    void select(const FieldWish &wish, bool everything) override
+    {
+        NamedReader::select(wish, everything);
+        const bool wanted = everything || may_be_wanted(wish, object_id, TC_CELL_DATA);
+        const std::vector<Offered> all = arrays();
+        reader->SetGenerateObjectIdCellArray(wanted && !all.empty() && all.back().block_numbers);
+    }
+    std::vector<Block> blocks() const override
+    {
+        const std::vector<Offered> all = arrays();
+        std::vector<Block> out;
+        if (all.empty() || !all.back().block_numbers)
+            return out;
+        for (int i = 0; i < reader->GetNumberOfElementBlockArrays(); i++) {
+            const char *name = reader->GetElementBlockArrayName(i);
+            out.push_back({reader->GetObjectId(vtkExodusIIReader::ELEM_BLOCK, i), name ? name : ""});
+        }
+        return out;
+    }
+
+  private:
+    static constexpr const char *object_id = "ObjectId";
+
+    static bool has_own_ids(const std::vector<Offered> &all)
+    {
+        return std::any_of(all.begin(), all.end(),
+                           [](const Offered &o) { return o.association == TC_CELL_DATA && o.name == object_id; });
     }
 };
 

@@ -7,7 +7,7 @@
  * Result: {"mesh_hash": 16 hexadecimal digits, "same_mesh": were arrays left out?, "format", "reader", "field"?,
  * "association"?, "points", "cells", "solid_cells", "dropped_cells",
  * "degenerate", "turned", "unused_points", "merged_points", "linearised", "refine", "step", "times": [], "offered":
- * [{"name", "association", "components", "ranged", "lo"?, "hi"?}], "cell_types": [{"type", "dimension", "count"}],
+ * [{"name", "association", "components", "ranged", "lo"?, "hi"?}], "blocks": [{"number", "name"?}], "cell_types": [{"type", "dimension", "count"}],
  * "notes": []} and the arrays vertex (f64), tet (i32), cell (i64: the file's cell of each tet), scalar (f64; absent
  * without a field). */
 #define _GNU_SOURCE
@@ -127,6 +127,19 @@ static void fill_arrays(tc_source *s, arena *a, const json_t *list)
     }
 }
 
+static void fill_blocks(tc_source *s, arena *a, const json_t *list)
+{
+    s->n_block = json_array_size(list);
+    tc_block_info *info = take(a, s->n_block * sizeof *info);
+    s->block = info;
+    for (size_t i = 0; i < s->n_block; i++) {
+        const json_t *row = json_array_get(list, i);
+        const char *name = take_text(a, text_of(row, "name"));
+        if (info)
+            info[i] = (tc_block_info){json_integer_value(json_object_get(row, "number")), name};
+    }
+}
+
 static void fill_cells(tc_source *s, arena *a, const json_t *list)
 {
     s->n_cell_type = json_array_size(list);
@@ -154,6 +167,7 @@ static void fill_source(tc_source *s, arena *a, const char *path, const tc_reply
     s->n_point = count_of(json, "points");
     s->n_cell = count_of(json, "cells");
     fill_arrays(s, a, json_object_get(json, "offered"));
+    fill_blocks(s, a, json_object_get(json, "blocks"));
     fill_cells(s, a, json_object_get(json, "cell_types"));
     const json_t *times = json_object_get(json, "times");
     s->n_time = json_array_size(times);

@@ -84,6 +84,19 @@ json_t *describe_cells(const Gathered &data)
     return list;
 }
 
+json_t *describe_blocks(const std::vector<Block> &blocks)
+{
+    json_t *list = json_array();
+    for (const Block &block : blocks) {
+        json_t *row = json_object();
+        json_object_set_new(row, "number", json_integer((json_int_t)block.number));
+        if (!block.name.empty())
+            json_object_set_new(row, "name", text(block.name));
+        json_array_append_new(list, row);
+    }
+    return list;
+}
+
 json_t *describe_texts(const std::vector<std::string> &lines)
 {
     json_t *list = json_array();
@@ -167,11 +180,11 @@ void read(tc_serve *serve, Kept &kept, json_t *json)
     talk.progress("reading", -1);
     Loaded loaded = load_file(request, talk);
     Gathered data;
-    for (const auto &object : loaded.data)
-        gather_leaves(data, object);
+    gather_leaves(data, loaded.data);
     count_cells(data, request.path);
     require_solid(request.path, data);
     list_read_arrays(loaded.offered, data);
+    list_block_numbers(loaded.offered, loaded.blocks, data);
     const Chosen chosen = choose_field(request.path, request.field, loaded.offered);
     find_ranges(loaded.offered, data, [&](const Offered &o) {
         return request.all_ranges || (o.name == chosen.name && o.association == chosen.association);
@@ -225,6 +238,7 @@ void read(tc_serve *serve, Kept &kept, json_t *json)
         json_array_append_new(times, json_real(std::isfinite(t) ? t : 0));
     json_object_set_new(result.get(), "times", times);
     json_object_set_new(result.get(), "offered", describe_arrays(loaded.offered));
+    json_object_set_new(result.get(), "blocks", describe_blocks(loaded.blocks));
     json_object_set_new(result.get(), "cell_types", describe_cells(data));
     json_object_set_new(result.get(), "notes", describe_texts(loaded.notes));
 
@@ -247,8 +261,7 @@ void read_surface(tc_serve *serve, json_t *json)
     talk.progress("reading", -1);
     Loaded loaded = load_file(request, talk);
     Gathered data;
-    for (const auto &object : loaded.data)
-        gather_leaves(data, object);
+    gather_leaves(data, loaded.data);
     for (const Leaf &leaf : data.leaf)
         check_surface_cells(leaf, request.path);
     count_cells(data, request.path);

@@ -161,6 +161,13 @@ typedef struct tc_array_info {
     double lo, hi; /* finite range; of the magnitude where components > 1; lo > hi when nothing is finite; NaN: not read */
 } tc_array_info;
 
+/* One block of a file of several, by what the cell array of block numbers that is made for such files calls it: the last of
+ * the arrays, "ObjectId" (Exodus II: the block's id) or "vtkCompositeIndex" (VTK's flat index in the tree of blocks). */
+typedef struct tc_block_info {
+    int64_t number;
+    const char *name; /* NULL: it has none */
+} tc_block_info;
+
 /* One kind of cell a file holds. */
 typedef struct tc_cell_info {
     const char *type; /* "hexahedron", "quadratic_tetra", … */
@@ -175,6 +182,8 @@ typedef struct tc_source {
     size_t n_point, n_cell;
     size_t n_array;
     const tc_array_info *array;
+    size_t n_block; /* 0: one block, or the file has an array of such numbers itself */
+    const tc_block_info *block;
     size_t n_cell_type;
     const tc_cell_info *cell_type;
     size_t n_time;

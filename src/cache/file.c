@@ -22,7 +22,7 @@ _Static_assert(TET_MAP + 1 == TC_CACHE_PARTS, "every part has its place in the h
 /* What of a mesh is no array; texts and lists follow it in the description. */
 typedef struct facts {
     uint64_t n_vertex, n_tet, n_imaginary, n_vertex_source, n_tet_source;
-    uint64_t source_hash, n_point, n_cell, n_array, n_cell_type, n_time, n_note, dropped_cells;
+    uint64_t source_hash, n_point, n_cell, n_array, n_block, n_cell_type, n_time, n_note, dropped_cells;
     int32_t association, asked, step, refine, linearised, maps;
     tc_mesh_report report;
     tc_file_repairs file;
@@ -61,7 +61,8 @@ static void put_facts(FILE *stream, const tc_mesh *m)
     f.n_vertex_source = m->n_vertex_source, f.n_tet_source = m->n_tet_source;
     f.source_hash = m->source_hash;
     f.n_point = s->n_point, f.n_cell = s->n_cell, f.dropped_cells = s->dropped_cells;
-    f.n_array = s->n_array, f.n_cell_type = s->n_cell_type, f.n_time = s->n_time, f.n_note = s->n_note;
+    f.n_array = s->n_array, f.n_block = s->n_block, f.n_cell_type = s->n_cell_type;
+    f.n_time = s->n_time, f.n_note = s->n_note;
     f.association = (int32_t)m->association;
     /* A helper that failed may do better next time: then the gaps are to be filled after loading. */
     f.asked = (int32_t)(m->gaps_may_do ? TC_REENTRY_PEEL : m->asked);
@@ -89,6 +90,10 @@ static tc_status describe(char **out, size_t *n, const tc_mesh *m, tc_error *err
                                    (double)s->array[i].components};
         put_text(stream, s->array[i].name);
         fwrite(numbers, sizeof numbers, 1, stream);
+    }
+    for (size_t i = 0; i < s->n_block; i++) {
+        put_text(stream, s->block[i].name);
+        fwrite(&s->block[i].number, sizeof s->block[i].number, 1, stream);
     }
     for (size_t i = 0; i < s->n_cell_type; i++) {
         const uint64_t numbers[2] = {(uint64_t)s->cell_type[i].dimension, s->cell_type[i].count};
@@ -210,11 +215,11 @@ static tc_status take_source(tc_mesh *m, const facts *f, const char *description
                              tc_error *err)
 {
     const size_t most = n / 8; /* each entry takes at least that */
-    if (f->n_array > most || f->n_cell_type > most || f->n_time > most || f->n_note > most)
+    if (f->n_array > most || f->n_block > most || f->n_cell_type > most || f->n_time > most || f->n_note > most)
         return tc_fail(err, TC_E_FILE, "its lists are too long");
     size_t lists = (n + 15) / 16 * 16, path_bytes = strlen(path) + 1;
-    size_t bytes = lists + f->n_array * sizeof(tc_array_info) + f->n_cell_type * sizeof(tc_cell_info) +
-                   f->n_time * sizeof(double) + f->n_note * sizeof(char *) + path_bytes;
+    size_t bytes = lists + f->n_array * sizeof(tc_array_info) + f->n_block * sizeof(tc_block_info) +
+                   f->n_cell_type * sizeof(tc_cell_info) + f->n_time * sizeof(double) + f->n_note * sizeof(char *) + path_bytes;
     char *block = tc_alloc(bytes, 1);
     tc_source *s = tc_calloc(1, sizeof *s);
     m->source = s;
@@ -224,7 +229,8 @@ static tc_status take_source(tc_mesh *m, const facts *f, const char *description
     memcpy(block, description, n);
     cursor c = {block + sizeof *f, n - sizeof *f, false};
     tc_array_info *array = (void *)(block + lists);
-    tc_cell_info *cell = (void *)(array + f->n_array);
+    tc_block_info *blocks = (void *)(array + f->n_array);
+    tc_cell_info *cell = (void *)(blocks + f->n_block);
     double *time = (void *)(cell + f->n_cell_type);
     const char **note = (void *)(time + f->n_time);
     char *name = (void *)(note + f->n_note);
@@ -243,6 +249,10 @@ static tc_status take_source(tc_mesh *m, const facts *f, const char *description
         array[i].association = numbers[2] == TC_CELL_DATA ? TC_CELL_DATA : TC_POINT_DATA;
         array[i].components = numbers[3] >= 0 && numbers[3] <= INT32_MAX ? (int)numbers[3] : 0;
     }
+    for (size_t i = 0; i < f->n_block; i++) {
+        blocks[i].name = take_text(&c);
+        take_copy(&blocks[i].number, &c, sizeof blocks[i].number);
+    }
     for (size_t i = 0; i < f->n_cell_type; i++) {
         uint64_t numbers[2];
         cell[i].type = take_text(&c);
@@ -253,9 +263,9 @@ static tc_status take_source(tc_mesh *m, const facts *f, const char *description
     for (size_t i = 0; i < f->n_note; i++)
         note[i] = take_text(&c);
     s->path = memcpy(name, path, path_bytes);
-    s->array = array, s->cell_type = cell, s->time = time, s->note = note;
+    s->array = array, s->block = blocks, s->cell_type = cell, s->time = time, s->note = note;
     s->n_point = (size_t)f->n_point, s->n_cell = (size_t)f->n_cell, s->dropped_cells = (size_t)f->dropped_cells;
-    s->n_array = (size_t)f->n_array, s->n_cell_type = (size_t)f->n_cell_type;
+    s->n_array = (size_t)f->n_array, s->n_block = (size_t)f->n_block, s->n_cell_type = (size_t)f->n_cell_type;
     s->n_time = (size_t)f->n_time, s->n_note = (size_t)f->n_note;
     s->step = f->step, s->refine = f->refine, s->linearised = f->linearised != 0;
     s->ms_read = NAN;

@@ -9,7 +9,7 @@
 #include "core/hash.h"
 
 /* To be raised with every change of the layout, or of what tc_mesh_read or tc_mesh_prepare make of a file. */
-#define TC_CACHE_FORMAT 1
+#define TC_CACHE_FORMAT 2
 #define TC_CACHE_MAGIC "tccache\n"
 #define TC_CACHE_ORDER 0x01020304u /* reads otherwise on a machine of another byte order */
 

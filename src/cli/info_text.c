@@ -2,6 +2,7 @@
 #include "cli/info_text.h"
 #include "cli/input.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 #define TC_CELL_BYTES 16.0
 #define TC_VERTEX_BYTES 16.0
 #define TC_TIMES_SHOWN 6
+#define TC_BLOCKS_SHOWN 8
 
 double tc_info_gpu_bytes(const tc_mesh_report *report)
 {
@@ -86,6 +88,11 @@ static void tc_source_print(const tc_source *source)
     }
     if (!source->n_array)
         printf("arrays      none: the mesh is shown with the scalar 0\n");
+    for (size_t i = 0; i < source->n_block && i < TC_BLOCKS_SHOWN; i++)
+        printf("%-12s%" PRId64 "%s%s\n", i ? "" : "blocks", source->block[i].number, source->block[i].name ? " " : "",
+               source->block[i].name ? source->block[i].name : "");
+    if (source->n_block > TC_BLOCKS_SHOWN)
+        printf("            … and %zu more (--json tells all)\n", source->n_block - TC_BLOCKS_SHOWN);
     if (source->n_time) {
         printf("steps       %zu: ", source->n_time);
         for (size_t i = 0; i < source->n_time && i < TC_TIMES_SHOWN - 1; i++)
@@ -169,7 +176,8 @@ static json_t *tc_range_json(double lo, double hi)
 
 static json_t *tc_source_json(const tc_source *source)
 {
-    json_t *json = json_object(), *cells = json_array(), *arrays = json_array(), *notes = json_array();
+    json_t *json = json_object(), *cells = json_array(), *arrays = json_array(), *blocks = json_array();
+    json_t *notes = json_array();
     tc_json_text(json, "format", source->format);
     tc_json_text(json, "reader", source->reader);
     tc_json_count(json, "points", source->n_point);
@@ -191,6 +199,13 @@ static json_t *tc_source_json(const tc_source *source)
         json_array_append_new(arrays, row);
     }
     json_object_set_new(json, "arrays", arrays);
+    for (size_t i = 0; i < source->n_block; i++) {
+        json_t *row = json_object();
+        json_object_set_new(row, "number", json_integer((json_int_t)source->block[i].number));
+        tc_json_text(row, "name", source->block[i].name);
+        json_array_append_new(blocks, row);
+    }
+    json_object_set_new(json, "blocks", blocks);
     tc_json_text(json, "field", source->field);
     json_object_set_new(json, "times", tc_json_reals(source->time, source->n_time));
     if (source->step >= 0)

@@ -1,6 +1,7 @@
 /* look_build.c: from the options of a look, a mesh and its file to a tc_look. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/look_build.h"
+#include "cli/nearest.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,7 +37,8 @@ static int tc_field_take(const tc_field **out, tc_look_parts *parts, tc_mesh *me
     return -1;
 }
 
-/* The name of the array that numbers the blocks; NULL: the file has none. */
+/* The name of the array that numbers the blocks, which readers/fields.cpp makes where there are several and none of
+ * these; NULL: there is none. */
 static const char *tc_block_array(const tc_mesh *mesh)
 {
     static const char *const known[] = {"ObjectId",        "vtkCompositeIndex",    "BlockId", "BlockID", "block_id",
@@ -47,6 +49,36 @@ static const char *tc_block_array(const tc_mesh *mesh)
             if (source->array[i].association == TC_CELL_DATA && !strcmp(source->array[i].name, known[k]))
                 return known[k];
     return NULL;
+}
+
+/* Appends the numbers of the blocks of that name to parts->range. */
+static int tc_block_named(tc_look_parts *parts, int *used, const tc_source *source, const char *name, const char *input,
+                          tc_talk *talk)
+{
+    tc_nearest nearest = {.name = name};
+    const int before = *used;
+    for (size_t i = 0; i < source->n_block; i++) {
+        const tc_block_info *block = &source->block[i];
+        if (block->name && strcmp(block->name, name) != 0)
+            tc_nearest_offer(&nearest, block->name);
+        if (!block->name || strcmp(block->name, name) != 0)
+            continue;
+        if (*used >= 3 * TC_LOOK_MANY) { /* what is left is for numbers */
+            tc_talk_error(talk, "%s has too many blocks named '%s': give their numbers, FROM:TO, to --blocks", input,
+                          name);
+            return TC_EXIT_FAILED;
+        }
+        parts->range[*used][0] = parts->range[*used][1] = (double)block->number;
+        ++*used;
+    }
+    if (*used > before)
+        return -1;
+    if (nearest.best)
+        tc_talk_error(talk, "%s has no block named '%s'; the nearest is '%s', and tetcast info tells all", input, name,
+                      nearest.best);
+    else
+        tc_talk_error(talk, "%s has no names of blocks, so none is '%s': give numbers to --blocks", input, name);
+    return TC_EXIT_FAILED;
 }
 
 /* Cells whose values of an array lie in one of n ranges, which parts->range holds from `first` on. */
@@ -90,16 +122,25 @@ static int tc_selects_make(tc_look_parts *parts, tc_mesh *mesh, const tc_render_
     const char *array = tc_block_array(mesh);
     if (!array) {
         tc_talk_error(talk,
-                      "%s has no array of block numbers (ObjectId, BlockId or vtkCompositeIndex of the cells): "
-                      "leave --blocks out, or name an array with --select NAME:V",
+                      "%s is one block, and has no array of block numbers (ObjectId, BlockId or vtkCompositeIndex of "
+                      "the cells): leave --blocks out, or name an array with --select NAME:V",
                       options->input);
         return TC_EXIT_FAILED;
     }
-    for (int i = 0; i < o->blocks.n; i++) {
-        parts->range[used + i][0] = o->blocks.range[i].lo;
-        parts->range[used + i][1] = o->blocks.range[i].hi;
+    const int first = used;
+    for (int i = 0; i < o->blocks.n && code < 0; i++) {
+        const tc_range_choice *range = &o->blocks.range[i];
+        if (range->name.at) {
+            char *text = tc_part_text(&range->name);
+            code = text ? tc_block_named(parts, &used, tc_mesh_source(mesh), text, options->input, talk)
+                        : tc_memory_out(talk);
+            free(text);
+            continue;
+        }
+        parts->range[used][0] = range->lo;
+        parts->range[used++][1] = range->hi;
     }
-    return tc_select_add(parts, mesh, array, "--blocks", used, o->blocks.n, options, talk);
+    return code < 0 ? tc_select_add(parts, mesh, array, "--blocks", first, used - first, options, talk) : code;
 }
 
 /* --------------------------------------------------------------------------------------------------------- colours */

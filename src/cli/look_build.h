@@ -12,7 +12,7 @@ typedef struct tc_look_parts {
     bool there; /* something is asked for: look is to be rendered with */
     tc_iso iso[TC_LOOK_MANY];
     tc_select select[TC_LOOK_MANY + 1];
-    double range[2 * TC_LOOK_MANY][2];
+    double range[4 * TC_LOOK_MANY][2]; /* of select, then of blocks, of which one name may stand for several */
     int n_field;
     tc_field *field[TC_LOOK_MANY + 2]; /* that select and color_field point to */
     double color_range[2];             /* that the colours of color_field are laid over */

@@ -233,7 +233,7 @@ static bool tc_select_parse(void *field, const char *text, char *why)
     return out->select.n > before;
 }
 
-/* N, or FROM:TO, comma separated. */
+/* N, FROM:TO or a name, comma separated. */
 static bool tc_blocks_parse(void *field, const char *text, char *why)
 {
     tc_look_options *out = field;
@@ -245,12 +245,13 @@ static bool tc_blocks_parse(void *field, const char *text, char *why)
         tc_range_choice *range = &out->blocks.range[out->blocks.n];
         *range = (tc_range_choice){0};
         const tc_part first = {at, colon}, last = {at + colon + 1, length - colon - 1};
-        if (!tc_part_reals(&range->lo, &first, 1, 1))
-            return false;
+        const bool one = tc_part_reals(&range->lo, &first, 1, 1);
         range->hi = range->lo;
-        if (colon < length && !tc_part_reals(&range->hi, &last, 1, 1))
+        if (length == 0)
             return false;
-        if (range->lo != floor(range->lo) || range->hi != floor(range->hi) || range->lo > range->hi) {
+        if (!one || (colon < length && !tc_part_reals(&range->hi, &last, 1, 1)))
+            *range = (tc_range_choice){.name = {at, length}};
+        else if (range->lo != floor(range->lo) || range->hi != floor(range->hi) || range->lo > range->hi) {
             snprintf(why, 64, "whole numbers, FROM not above TO");
             return false;
         }
@@ -306,7 +307,7 @@ const tc_option tc_look_option[] = {
     {"--clip", 0, "X,Y,Z,NX,NY,NZ[;…]", "keep the side of a plane through X,Y,Z that the normal NX,NY,NZ points to; cells are cut", TC_OPTION_CUSTOM, .at = 0, .repeat = true, .parse = tc_clip_parse},
     {"--clip-box", 0, "X0,X1,Y0,Y1,Z0,Z1", "keep what lies in this box", TC_OPTION_CUSTOM, .at = 0, HAS(has_clip_box), .parse = tc_clip_box_parse},
     {"--select", 0, "NAME:LO,HI|NAME:V[;…]", "keep whole cells with values of this array in the range; ranges of one array add up, of several arrays all must hold", TC_OPTION_CUSTOM, .at = 0, .repeat = true, .parse = tc_select_parse},
-    {"--blocks", 0, "N|FROM:TO[,…]", "keep the cells of these blocks, where the file has an array of block numbers", TC_OPTION_CUSTOM, .at = 0, .parse = tc_blocks_parse},
+    {"--blocks", 0, "N|FROM:TO|NAME[,…]", "keep the cells of these blocks (tetcast info tells numbers and names)", TC_OPTION_CUSTOM, .at = 0, .parse = tc_blocks_parse},
     {.help = "Geometry in the picture"},
     {"--outline", 0, NULL, "the edges of the mesh's bounding box", TC_OPTION_FLAG, AT(outline)},
     {"--wireframe", 0, NULL, "the edges of the mesh's boundary", TC_OPTION_FLAG, AT(wireframe)},

@@ -14,7 +14,7 @@ typedef struct tc_part {
 
 /* Cells whose values of an array lie in [lo, hi]. */
 typedef struct tc_range_choice {
-    tc_part name; /* of the array; at NULL: that of block numbers */
+    tc_part name; /* of the array, or of a block; at NULL: blocks by their numbers */
     double lo, hi;
 } tc_range_choice;
 

@@ -88,6 +88,58 @@ same_pixels s_1.png one.png
 run 0 render s_1.png --quiet -o one.png
 same_pixels s_1.png one.png
 
+# Blocks of a file that has no numbers for them, by number and by name.
+box() { # box FILE LEFT MATERIAL
+    cat >"$1" <<VTU
+<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"><UnstructuredGrid>
+<Piece NumberOfPoints="8" NumberOfCells="1">
+<PointData><DataArray type="Float64" Name="T" format="ascii">0 1 1 0 2 1 1 2</DataArray></PointData>
+<CellData><DataArray type="Int32" Name="Material" format="ascii">$3</DataArray></CellData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
+$2 0 0 $(($2 + 1)) 0 0 $(($2 + 1)) 1 0 $2 1 0 $2 0 1 $(($2 + 1)) 0 1 $(($2 + 1)) 1 1 $2 1 1</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3 4 5 6 7</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">8</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">12</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>
+VTU
+}
+box left.vtu 0 1
+box middle.vtu 1 2
+box right.vtu 2 3
+cat >blocks.vtm <<'VTM'
+<VTKFile type="vtkMultiBlockDataSet" version="1.0" byte_order="LittleEndian"><vtkMultiBlockDataSet>
+<DataSet index="0" name="port" file="left.vtu"/><DataSet index="1" name="keel: oak" file="middle.vtu"/>
+<DataSet index="2" name="star board" file="right.vtu"/></vtkMultiBlockDataSet></VTKFile>
+VTM
+of_blocks() { # of_blocks NAME OPTION…
+    name=$1
+    shift
+    # shellcheck disable=SC2086
+    run 0 render blocks.vtm $size --field T -o "$name.png" "$@"
+}
+of_blocks all
+of_blocks a --select Material:2,3
+other_pixels all.png a.png
+for blocks in 2:3 3,2 "keel: oak,star board" "3,keel: oak"; do
+    of_blocks b --blocks "$blocks"
+    same_pixels a.png b.png
+done
+run 0 render b.png --quiet -o c.png
+same_pixels a.png c.png
+of_blocks b --blocks port
+of_blocks a --select Material:1
+same_pixels a.png b.png
+printf '{"data": "blocks.vtm", "field": "T", "effects": {"blocks": ["star board", 1]}}' >blocks.json
+# shellcheck disable=SC2086
+run 0 render blocks.json $size -o b.png
+of_blocks a --blocks 1,3
+same_pixels a.png b.png
+run 0 info blocks.vtm --json
+cp out info.json
+json info.json size source.blocks 3 eq source.blocks.1.number 2 eq source.blocks.1.name "keel: oak" \
+    size source.arrays 3 eq source.arrays.2.name vtkCompositeIndex eq source.field T
+run 0 info blocks.vtm
+prints "blocks      1 port"
+
 # What cannot be.
 wrong() { # wrong CODE TEXT OPTION…
     code=$1 text=$2
@@ -128,6 +180,10 @@ wrong 2 "two.vtk: 'Material' is cell data" --field Material --iso 1
 wrong 2 "two.vtk: absorption" --model absorption --shade cell
 wrong 2 "two.vtk: isosurfaces belong to matter that absorbs" --model mip --iso 1
 wrong 2 "--axes takes no value, but '--axes=on' was given" --axes=on
+run 1 render blocks.vtm $size -o no.png --blocks prt
+says "blocks.vtm has no block named 'prt'; the nearest is 'port'"
+one_line
+wrong 1 "has no names of blocks, so none is 'port'" --blocks port
 run 2 render synth:ball $size -o no.png --color-field x
 says "a synthetic dataset has one field"
 cat >plain.vtk <<'VTK'
@@ -147,5 +203,5 @@ LOOKUP_TABLE default
 0 1 2 3
 VTK
 run 1 render plain.vtk $size -o no.png --blocks 1
-says "plain.vtk has no array of block numbers"
+says "plain.vtk is one block"
 finish

@@ -136,6 +136,8 @@ static void check_source(const tc_source *s)
     size_t length = s->path ? strlen(s->path) : 0;
     for (size_t i = 0; i < s->n_array; i++)
         length += s->array[i].name ? strlen(s->array[i].name) : 0;
+    for (size_t i = 0; i < s->n_block; i++)
+        length += (s->block[i].name ? strlen(s->block[i].name) : 0) + (s->block[i].number > 0);
     for (size_t i = 0; i < s->n_cell_type; i++)
         length += s->cell_type[i].type ? strlen(s->cell_type[i].type) : 0;
     for (size_t i = 0; i < s->n_note; i++)

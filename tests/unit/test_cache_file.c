@@ -193,6 +193,48 @@ static void a_mesh_that_comes_back_has_no_fields(void **state)
     tc_mesh_destroy(&b);
 }
 
+/* Numbers and names of blocks come back, and the numbers of the cells as a field. */
+static void blocks_that_come_back_have_no_names(void **state)
+{
+    (void)state;
+    static const tc_cache_key key = {{1, 2}};
+    static const tc_read_options numbers = {.field = "vtkCompositeIndex"};
+    static grid g;
+    char box[460], vtm[460], list[1024];
+    memset(&g, 0, sizeof g);
+    for (int i = 0; i < 4; i++)
+        add_point(&g, i == 1, i == 2, i == 3);
+    add_cell(&g, 10, 4, (int[]){0, 1, 2, 3});
+    snprintf(box, sizeof box, "%s/box.vtu", folder);
+    snprintf(vtm, sizeof vtm, "%s/two.vtm", folder);
+    snprintf(list, sizeof list,
+             "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" byte_order=\"LittleEndian\"><vtkMultiBlockDataSet>"
+             "<DataSet index=\"0\" name=\"a block\" file=\"box.vtu\"/><DataSet index=\"1\" file=\"box.vtu\"/>"
+             "</vtkMultiBlockDataSet></VTKFile>");
+    write_vtu(box, &g, "", "");
+    write_text(vtm, list);
+    tc_mesh *a = read_path(vtm, NULL), *b = NULL;
+    tc_field *field = NULL;
+    tc_error err = {0};
+    prepared(a);
+    assert_int_equal(tc_mesh_save(a, cache_path, &key, 1, &err), TC_OK);
+    tc_mesh_destroy(&a);
+    assert_int_equal(tc_mesh_load(&b, cache_path, &key, vtm, 1, NULL, &err), TC_OK);
+    const tc_source *s = tc_mesh_source(b);
+    assert_int_equal(s->n_block, 2);
+    assert_int_equal(s->block[0].number, 1);
+    assert_string_equal(s->block[0].name, "a block");
+    assert_int_equal(s->block[1].number, 2);
+    assert_null(s->block[1].name);
+    assert_string_equal(s->cell_type[0].type, "tetra"); /* what follows them is in its place */
+    assert_int_equal(s->cell_type[0].count, 2);
+    if (tc_field_read(&field, b, vtm, &numbers, NULL, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    assert_true(field->value[0] == 1);
+    tc_field_destroy(&field);
+    tc_mesh_destroy(&b);
+}
+
 static void a_damaged_byte_anywhere_is_found(void **state)
 {
     (void)state;
@@ -560,6 +602,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_mesh_comes_back_as_it_was_saved, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(a_mesh_that_comes_back_has_no_fields, make_folder, drop_folder),
+        cmocka_unit_test_setup_teardown(blocks_that_come_back_have_no_names, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(a_damaged_byte_anywhere_is_found, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(another_version_or_key_is_not_taken, make_folder, drop_folder),
         cmocka_unit_test_setup_teardown(a_vertex_that_is_not_there_is_not_believed, make_folder, drop_folder),

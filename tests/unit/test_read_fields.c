@@ -250,6 +250,102 @@ static void test_blocks_are_lost(void **state)
     unlink(right);
 }
 
+static const tc_array_info *last_array(const tc_mesh *m)
+{
+    return m->source->n_array ? &m->source->array[m->source->n_array - 1] : NULL;
+}
+
+/* Each tet's value must be `left` where x < 1, else `right`. */
+static void assert_blocks(const tc_mesh *m, double left, double right)
+{
+    assert_int_equal(m->association, TC_CELL_DATA);
+    assert_int_equal(m->n_tet, 10);
+    for (size_t t = 0; t < m->n_tet; t++) {
+        double x = 0;
+        for (int k = 0; k < 4; k++)
+            x += m->vertex[3 * (size_t)m->tet[4 * t + (size_t)k]] / 4;
+        assert_true(m->scalar[t] == (x < 1 ? left : right));
+    }
+}
+
+static void test_blocks_have_other_numbers(void **state)
+{
+    (void)state;
+    static const char values[] = "<DataArray type=\"Float64\" Name=\"a\" format=\"ascii\">1 1 1 1 1 1 1 1</DataArray>";
+    static const char own[] = "<DataArray type=\"Int32\" Name=\"BlockId\" format=\"ascii\">7</DataArray>";
+    const tc_read_options numbers = {.field = "vtkCompositeIndex"}, a = {.field = "a"}, any = {.all_ranges = true},
+                          cell = {.association = TC_CELL_DATA}, point = {.field = "vtkCompositeIndex",
+                                                                         .association = TC_POINT_DATA};
+    char left[512], right[512], list[2048];
+    snprintf(left, sizeof left, "%s", write_box("left.vtu", 0, values, ""));
+    snprintf(right, sizeof right, "%s", write_box("right.vtu", 1, values, ""));
+    snprintf(list, sizeof list,
+             "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" byte_order=\"LittleEndian\"><vtkMultiBlockDataSet>"
+             "<Block index=\"0\"><DataSet index=\"0\" name=\"port\" file=\"%s\"/></Block><DataSet index=\"1\"/>"
+             "<DataSet index=\"2\" file=\"%s\"/></vtkMultiBlockDataSet></VTKFile>",
+             base_of(left), base_of(right));
+    const char *vtm = scratch("numbers.vtm");
+    write_text(vtm, list);
+    tc_mesh *m = read_path(vtm, &numbers); /* root 0, block 1, its box 2, an empty one 3 */
+    assert_string_equal(m->source->field, "vtkCompositeIndex");
+    assert_blocks(m, 2, 4);
+    assert_string_equal(last_array(m)->name, "vtkCompositeIndex");
+    assert_true(last_array(m)->lo == 2 && last_array(m)->hi == 4);
+    assert_int_equal(m->source->n_block, 2);
+    assert_int_equal(m->source->block[0].number, 2);
+    assert_string_equal(m->source->block[0].name, "port");
+    assert_int_equal(m->source->block[1].number, 4);
+    assert_null(m->source->block[1].name);
+    tc_error err = {0}; /* and as a field of a mesh, and as its new values */
+    assert_int_equal(tc_mesh_read_values(NULL, m, vtm, &a, NULL, &err), TC_OK);
+    assert_true(m->association == TC_POINT_DATA && m->scalar[0] == 1);
+    assert_true(isnan(last_array(m)->lo));
+    prepared(m);
+    tc_field *field = NULL;
+    assert_int_equal(tc_field_read(&field, m, vtm, &numbers, NULL, &err), TC_OK);
+    double range[2];
+    tc_association association;
+    tc_field_info(range, &association, NULL, field);
+    assert_true(range[0] == 2 && range[1] == 4 && association == TC_CELL_DATA);
+    tc_field_destroy(&field);
+    tc_mesh_destroy(&m);
+    assert_non_null(strstr(refusal_of(vtm, &point), "has no point array"));
+
+    write_box("left.vtu", 0, "", ""); /* numbers are never what is shown by default */
+    write_box("right.vtu", 1, "", "");
+    m = read_path(vtm, &any);
+    assert_null(m->source->field);
+    assert_int_equal(m->source->n_array, 1);
+    tc_mesh_destroy(&m);
+    assert_non_null(strstr(refusal_of(vtm, &cell), "has no cell array"));
+
+    write_box("right.vtu", 1, values, own); /* nor are there others beside the file's own */
+    m = read_path(vtm, &any);
+    assert_string_equal(last_array(m)->name, "BlockId");
+    assert_int_equal(m->source->n_block, 0);
+    tc_mesh_destroy(&m);
+    assert_non_null(strstr(refusal_of(vtm, &numbers), "cell arrays BlockId"));
+    unlink(vtm);
+    write_box("right.vtu", 1, values, "");
+
+    const char *one = scratch("one.pvd"); /* several files of one step are as many blocks */
+    snprintf(list, sizeof list,
+             "<VTKFile type=\"Collection\" version=\"0.1\"><Collection><DataSet timestep=\"0\" part=\"0\" file=\"%s\"/>"
+             "<DataSet timestep=\"0\" part=\"1\" file=\"%s\"/></Collection></VTKFile>",
+             base_of(left), base_of(right));
+    write_text(one, list);
+    m = read_path(one, &numbers);
+    assert_blocks(m, 1, 2);
+    tc_mesh_destroy(&m);
+    unlink(one);
+    m = read_path(right, &any); /* one block needs no number */
+    assert_int_equal(m->source->n_block, 0);
+    assert_string_equal(last_array(m)->name, "a");
+    tc_mesh_destroy(&m);
+    unlink(left);
+    unlink(right);
+}
+
 static void test_structured_grids_are_refused(void **state)
 {
     (void)state;
@@ -320,7 +416,7 @@ int main(void)
         cmocka_unit_test(test_names_with_colons_are_cut),        cmocka_unit_test(test_cell_values_land_on_other_tets),
         cmocka_unit_test(test_files_over_time_are_confused),     cmocka_unit_test(test_blocks_are_lost),
         cmocka_unit_test(test_structured_grids_are_refused),     cmocka_unit_test(test_broken_connectivity_is_followed),
-        cmocka_unit_test(test_wrong_arguments_start_the_helper),
+        cmocka_unit_test(test_wrong_arguments_start_the_helper), cmocka_unit_test(test_blocks_have_other_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -239,6 +239,53 @@ static void test_time_steps_are_mixed_up(void **state)
     assert_true(highest(DATA "vol/openfoam_cavity", &cavity_end, 4) > 0);
 }
 
+/* A file whose blocks are of one cell type each: its tets with each block's number are those of that type. */
+static void test_block_numbers_are_lost(void **state)
+{
+    (void)state;
+    const char *path = DATA "vol/simple-cube-multi-element-order1.e";
+    need(path);
+    static const struct {
+        const char *name, *type;
+        size_t tets;
+    } block[] = {{"hex8", "hexahedron", 5}, {"tet4", "tetra", 1}, {"wedge6", "wedge", 3}, {"pyramid5", "pyramid", 2}};
+    const tc_read_options ids = {.field = "ObjectId"}, zones = {.field = "vtkCompositeIndex"}, other = {.field = "aux_elem"};
+    tc_mesh *m = read_path(path, &ids);
+    assert_int_equal(m->association, TC_CELL_DATA);
+    assert_int_equal(m->source->n_block, 4);
+    for (size_t b = 0; b < 4; b++) {
+        size_t n = 0;
+        for (size_t t = 0; t < m->n_tet; t++)
+            n += m->scalar[t] == (double)(b + 1);
+        assert_int_equal(n, block[b].tets * count_of_type(m, block[b].type));
+        assert_int_equal(m->source->block[b].number, b + 1);
+        assert_string_equal(m->source->block[b].name, block[b].name);
+    }
+    tc_mesh_destroy(&m);
+    m = read_path(path, NULL);
+    assert_null(m->source->field); /* it has no variable, and numbers are none */
+    tc_mesh_destroy(&m);
+    m = read_path(DATA "vol/mug.e", &other);
+    const tc_array_info *last = &m->source->array[m->source->n_array - 1];
+    assert_string_equal(last->name, "ObjectId");
+    assert_int_equal(last->components, 0); /* not made */
+    assert_int_equal(m->source->block[1].number, 76);
+    tc_mesh_destroy(&m);
+    m = read_path(DATA "vol/disk_out_ref.ex2", NULL);
+    assert_null(array_named(m, "ObjectId", TC_CELL_DATA)); /* one block */
+    tc_mesh_destroy(&m);
+    m = read_path(DATA "vol/can_series/can_0.hdf", NULL);
+    assert_non_null(array_named(m, "ObjectId", TC_CELL_DATA)); /* the file's own */
+    assert_int_equal(m->source->n_block, 0);
+    tc_mesh_destroy(&m);
+    m = read_path(DATA "vol/sqnz_s.adf.cgns", &zones);
+    last = array_named(m, "vtkCompositeIndex", TC_CELL_DATA);
+    assert_true(last->lo == 2 && last->hi == 13);
+    assert_int_equal(m->source->n_block, 12);
+    assert_string_equal(m->source->block[0].name, "dom1_1_1_1");
+    tc_mesh_destroy(&m);
+}
+
 static void test_inverted_cells_stay_inverted(void **state)
 {
     (void)state;
@@ -328,6 +375,7 @@ int main(void)
         cmocka_unit_test(test_vectors_are_not_magnitudes),
         cmocka_unit_test(test_missing_arrays_are_not_listed),
         cmocka_unit_test(test_time_steps_are_mixed_up),
+        cmocka_unit_test(test_block_numbers_are_lost),
         cmocka_unit_test(test_inverted_cells_stay_inverted),
         cmocka_unit_test(test_refined_neighbours_come_apart),
         cmocka_unit_test(test_files_cut_short_are_taken_for_whole),
