@@ -2,6 +2,7 @@
 #include "gpu/effect.h"
 
 #include "core/memory.h"
+#include "gpu/pass.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -202,6 +203,12 @@ double tc_effects_bytes(tc_effects *effects)
         sum += effects->bytes[k];
     }
     return sum;
+}
+
+void tc_effect_fetch(const tc_job *job, GLuint program, const char *name, GLuint unit, GLenum format, GLuint texture)
+{
+    tc_pass_fetch(job->gl, program, name, job->software ? unit : TC_UNIT_EFFECT_TEXTURE + unit, format, texture,
+                  job->software);
 }
 
 void tc_effects_bind(const tc_effects *effects, const tc_job *job, GLuint program)

@@ -21,13 +21,14 @@ enum {
     TC_NEEDS_WAY = 128, /* rays keep tc_state_set.at from one entry to the next: no first hit but the first empties it */
 };
 
-/* Units of what effects fetch (fetch.glsl): images where the renderer is software, which have few; a row of each line at a
- * time. Those of the paper's stepper are free, for it knows no effects that need them. */
+/* Images of what effects fetch (fetch.glsl) where the renderer is software, which has few: a row of each line at a time. Those of
+ * the paper's stepper are free, for it knows no effects that need them. On GPUs they are textures, TC_UNIT_EFFECT_TEXTURE above. */
 enum {
     TC_UNIT_EFFECT_MASK = 4,  /* bits of cells */
     TC_UNIT_EFFECT_SHADE = 5, /* gradients */
     TC_UNIT_EFFECT_COLOR = 6, /* a second field */
     TC_UNIT_EFFECT_PIECES = 7,
+    TC_UNIT_EFFECT_EMPTY = 14, /* bits of cells, too */
     TC_UNIT_EFFECT_TEXTURE = 16, /* and above: textures, three a row at most */
     TC_UNIT_EFFECT_LAYERS = 16,  /* geometry */
 };
@@ -123,6 +124,8 @@ tc_status tc_effects_compile(const tc_effects *effects, const tc_job *job, tc_er
 tc_status tc_effects_frame(const tc_effects *effects, const tc_job *job, tc_error *err);
 /* What rows hold on the GPU by now; sets effects->bytes. */
 double tc_effects_bytes(tc_effects *effects);
+/* Binds what shaders declare with FETCH_…(unit): to that image, or to the texture TC_UNIT_EFFECT_TEXTURE + unit. */
+void tc_effect_fetch(const tc_job *job, GLuint program, const char *name, GLuint unit, GLenum format, GLuint texture);
 /* Of the program in use. */
 void tc_effects_bind(const tc_effects *effects, const tc_job *job, GLuint program);
 /* What a row makes of the function's colours holds for that of missing values: r, g, b, attenuation, in place. */

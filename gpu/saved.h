@@ -4,7 +4,7 @@
 
 #include "gpu/gl.h"
 
-enum { TC_SAVED_UNITS = 19, TC_SAVED_IMAGES = 16, TC_SAVED_SWITCHES = 23, TC_SAVED_STORES = 12, TC_SAVED_INDEXED = 2 };
+enum { TC_SAVED_UNITS = 31, TC_SAVED_IMAGES = 16, TC_SAVED_SWITCHES = 23, TC_SAVED_STORES = 12, TC_SAVED_INDEXED = 2 };
 
 typedef struct tc_gl_saved {
     GLint draw_framebuffer, read_framebuffer, program, vertex_array, active_texture, renderbuffer, texture_buffer;

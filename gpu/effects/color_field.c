@@ -122,8 +122,8 @@ static void bind(const void *state, const tc_effect_scene *scene, const tc_job *
     int half = 1;
     while (2 * half < c->n_piece)
         half *= 2;
-    tc_pass_fetch(gl, program, "color_values", TC_UNIT_EFFECT_COLOR, GL_R32F, c->values.texture, job->software);
-    tc_pass_fetch(gl, program, "color_pieces", TC_UNIT_EFFECT_PIECES, GL_RGBA32F, c->pieces.texture, job->software);
+    tc_effect_fetch(job, program, "color_values", TC_UNIT_EFFECT_COLOR, GL_R32F, c->values.texture);
+    tc_effect_fetch(job, program, "color_pieces", TC_UNIT_EFFECT_PIECES, GL_RGBA32F, c->pieces.texture);
     tc_pass_vec2(gl, program, "color_map", c->map[0], c->map[1]);
     tc_pass_int(gl, program, "color_last", c->n_piece - 1);
     tc_pass_int(gl, program, "color_half", half);

@@ -16,7 +16,6 @@
 #include <string.h>
 
 enum { DEPTH = 3, CHUNK = 512 }; /* CHUNK: words of a mask, one thread's at a time */
-enum { IMAGE_EMPTY = 14 };       /* behind those of march.c and compute.c */
 /* Of a mesh's cells. On llvmpipe, with a share of 0.89 a frame took 0.58 and 1.04 times the cycles that it takes
  * without (Blunt Fin, two views), 0.75 and 1.01 (Combustor), with 0.93 0.91, with 0.97 and 0.99 0.64; with less than
  * 0.8 up to 1.5. */
@@ -199,7 +198,7 @@ static void bind(const void *state, const tc_effect_scene *scene, const tc_job *
 {
     (void)scene;
     const empty_space *e = state;
-    tc_effect_mask_bind(&e->mask, job, program, "empty_mask", IMAGE_EMPTY);
+    tc_effect_mask_bind(&e->mask, job, program, "empty_mask", TC_UNIT_EFFECT_EMPTY);
 }
 
 const tc_effect tc_effect_empty_space = {

@@ -2,12 +2,9 @@
 #include "gpu/effects/mask.h"
 
 #include "core/memory.h"
-#include "gpu/pass.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-enum { UNIT_TEXTURES = 24 }; /* with textures, units up to 15 are taken, some by the state of rays */
 
 tc_status tc_effect_mask_upload(tc_texture_buffer *out, const tc_gl *gl, const uint32_t *mask, size_t n,
                                 size_t n_imaginary, tc_error *err)
@@ -27,6 +24,5 @@ tc_status tc_effect_mask_upload(tc_texture_buffer *out, const tc_gl *gl, const u
 void tc_effect_mask_bind(const tc_texture_buffer *mask, const tc_job *job, GLuint program, const char *name,
                          GLuint unit)
 {
-    tc_pass_fetch(job->gl, program, name, job->software ? unit : unit + UNIT_TEXTURES, GL_R32I, mask->texture,
-                  job->software);
+    tc_effect_fetch(job, program, name, unit, GL_R32I, mask->texture);
 }

@@ -75,7 +75,7 @@ static void gradient_bind(const void *state, const tc_effect_scene *scene, const
 {
     (void)scene;
     const gradients *g = state;
-    tc_pass_fetch(job->gl, program, "gradients", TC_UNIT_EFFECT_SHADE, GL_RGBA32F, g->texture.texture, job->software);
+    tc_effect_fetch(job, program, "gradients", TC_UNIT_EFFECT_SHADE, GL_RGBA32F, g->texture.texture);
 }
 
 const tc_effect tc_effect_gradient = {
