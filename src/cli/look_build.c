@@ -314,24 +314,3 @@ int tc_look_build(tc_look_parts *parts, tc_mesh *mesh, const tc_render_command *
     }
     return code;
 }
-
-json_t *tc_look_json(const tc_look_options *o)
-{
-    const struct {
-        bool there;
-        const char *name;
-    } effect[] = {{true, tc_model_name(o->model)},
-                  {o->iso.n > 0, "isosurfaces"},
-                  {o->gradient == TC_GRADIENT_CELL, "shade-cell"},
-                  {o->gradient == TC_GRADIENT_VERTEX, "shade-vertex"},
-                  {o->color_field != NULL, "color-field"},
-                  {o->clip.n > 0, "clip"},
-                  {o->has_clip_box, "clip-box"},
-                  {o->select.n > 0 || o->blocks.n > 0, "select"},
-                  {o->outline || o->wireframe || o->has_surface || o->geometry.n > 0, "geometry"}};
-    json_t *list = json_array();
-    for (size_t i = 0; i < sizeof effect / sizeof *effect; i++)
-        if (effect[i].there)
-            json_array_append_new(list, json_string(effect[i].name));
-    return list;
-}

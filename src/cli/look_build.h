@@ -28,7 +28,4 @@ typedef struct tc_look_parts {
 int tc_look_build(tc_look_parts *parts, tc_mesh *mesh, const tc_render_command *options, tc_talk *talk);
 void tc_look_parts_finish(tc_look_parts *parts);
 
-/* What is in force, for "effects" of the statistics. New reference. */
-json_t *tc_look_json(const tc_look_options *options);
-
 #endif

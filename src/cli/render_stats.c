@@ -165,6 +165,61 @@ static void tc_json_part(json_t *object, const char *key, json_t *part)
         json_decref(part);
 }
 
+/* Names of effects, as explain tells them, of a renderer that has no table of them: what the look calls for. */
+static json_t *tc_look_effects(const tc_look *look)
+{
+    static const char *const model[] = {
+        [TC_MODEL_DENSITY_EMITTER] = "density-emitter",
+        [TC_MODEL_EMISSION] = "emission",
+        [TC_MODEL_ABSORPTION] = "absorption",
+        [TC_MODEL_XRAY] = "xray",
+        [TC_MODEL_MAXIMUM] = "maximum",
+        [TC_MODEL_MINIMUM] = "minimum",
+        [TC_MODEL_AVERAGE] = "average",
+        [TC_MODEL_SURFACES] = "surfaces",
+    };
+    static const tc_look plain = {0};
+    look = look ? look : &plain;
+    const bool lit = look->shade.gradient != TC_GRADIENT_NONE;
+    const bool volume = lit && look->shade.volume && look->model == TC_MODEL_DENSITY_EMITTER;
+    const bool surfaces = lit && look->shade.surfaces && look->n_iso > 0;
+    const bool projection =
+        look->model == TC_MODEL_MAXIMUM || look->model == TC_MODEL_MINIMUM || look->model == TC_MODEL_AVERAGE;
+    const struct {
+        bool there;
+        const char *name;
+    } effect[] = {{true, model[look->model]},
+                  {look->n_select > 0, "select"},
+                  {look->n_plane > 0 || look->has_box, "clip"},
+                  {volume || surfaces, "lights"},
+                  {volume || surfaces, "gradients"},
+                  {volume, "shade"},
+                  {look->n_iso > 0, "isosurfaces"},
+                  {look->color_field != NULL, "color-field"},
+                  {surfaces, "shade-isosurfaces"},
+                  {look->n_geometry > 0, projection ? "geometry-before" : "geometry"}};
+    json_t *list = json_array();
+    for (size_t i = 0; i < sizeof effect / sizeof *effect; i++)
+        if (effect[i].there)
+            json_array_append_new(list, json_string(effect[i].name));
+    return list;
+}
+
+/* The effects in force. */
+static json_t *tc_effects_json(const tc_render_run *run)
+{
+    if (!*run->first.effects)
+        return tc_look_effects(run->render.look);
+    json_t *list = json_array();
+    for (const char *name = run->first.effects; *name;) {
+        const size_t length = strcspn(name, ",");
+        json_array_append_new(list, json_stringn(name, length));
+        name += length;
+        name += strspn(name, ", ");
+    }
+    return list;
+}
+
 json_t *tc_render_shared_json(const tc_render_run *run)
 {
     json_t *out = json_object(), *image = json_object();
@@ -177,7 +232,7 @@ json_t *tc_render_shared_json(const tc_render_run *run)
     tc_json_part(out, "image", image);
     tc_json_part(out, "gl", tc_gl_json(run));
     tc_json_part(out, "mesh", tc_mesh_json(run));
-    json_object_set_new(out, "effects", tc_look_json(&run->options->look));
+    json_object_set_new(out, "effects", tc_effects_json(run));
     return out;
 }
 

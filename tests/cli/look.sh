@@ -65,10 +65,32 @@ for file in materials.txt materials.json; do
     picture b --field Material --categories $file
     same_pixels a.png b.png
 done
-run 0 render two.vtk $size -o a.png --stats s.json --iso 1 --shade cell --clip 0,0,0,1,0,0
-json s.json eq effects.0 density-emitter eq effects.1 isosurfaces eq effects.2 shade-cell eq effects.3 clip
-run 0 render two.vtk $size -o a.png --stats s.json --model mip
-json s.json eq effects.0 mip size effects 1
+# What is in force is called alike by explain, by the renderers with GL and by the reference.
+effects() { tr -d '\n ' <"$1" | sed 's/.*"effects":\[\([^]]*\)\].*/\1/'; }
+in_force() { tr -d '\n ' <"$1" | grep -o '"name":"[^"]*","what":"[^"]*","in_force":true' | cut -d '"' -f 4 | tr '\n' ' '; }
+while read -r look; do
+    for driver in pingpong reference; do
+        # shellcheck disable=SC2086
+        run 0 render two.vtk --size 24x18 --quiet --driver $driver -o a.png --stats $driver.json $look
+    done
+    [ "$(effects pingpong.json)" = "$(effects reference.json)" ] ||
+        fail "$look: effects $(effects pingpong.json), with the reference $(effects reference.json)"
+    # shellcheck disable=SC2086
+    run 0 explain two.vtk --size 24x18 --quiet --driver pingpong --json $look
+    cp out explained.json
+    [ "$(effects pingpong.json | tr -d '"' | tr ',' ' ') " = "$(in_force explained.json)" ] ||
+        fail "$look: effects $(effects pingpong.json), but explain tells $(in_force explained.json)"
+done <<'LOOKS'
+--model xray --opacity 0:0.1,2:0.1
+--model mip --surface 0.5 --clip-box 0,1,0,1,0,0.5
+--shade vertex --select Material:2 --surface 0.5
+--iso 1 --shade cell --clip 0,0,0,1,0,0 --color-field Pres
+LOOKS
+for driver in pingpong reference; do
+    json $driver.json size effects 8 eq effects.0 density-emitter eq effects.1 clip eq effects.2 lights \
+        eq effects.3 gradients eq effects.4 shade eq effects.5 isosurfaces eq effects.6 color-field \
+        eq effects.7 shade-isosurfaces
+done
 run 0 render two.vtk $size -o a.png --select Material:7
 says "the picture is empty: clipping or selection"
 
