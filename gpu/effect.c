@@ -135,6 +135,7 @@ static void drop(tc_effect_store *store, int place, const tc_gl *gl)
         tc_effect_table[place]->finish(store->state[place], gl);
     free(store->state[place]);
     store->state[place] = NULL;
+    store->bytes[place] = 0;
 }
 
 tc_status tc_effects_update(tc_effects *effects, size_t *bytes, tc_effect_store *store, const tc_gl *gl, tc_error *err)
@@ -162,7 +163,7 @@ tc_status tc_effects_update(tc_effects *effects, size_t *bytes, tc_effect_store 
             drop(store, place, gl);
             return status;
         }
-        effects->bytes[k] = (double)own;
+        effects->bytes[k] = store->bytes[place] = (double)own;
         *bytes += own;
     }
     return TC_OK;

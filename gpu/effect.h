@@ -105,6 +105,7 @@ typedef struct tc_effects {
 /* What rows keep in a GL context from picture to picture. */
 typedef struct tc_effect_store {
     void *state[TC_EFFECTS_MOST]; /* by place in the table; NULL: nothing */
+    double bytes[TC_EFFECTS_MOST]; /* that these hold on the GPU */
     tc_empty_count empty;
     tc_transfer *function;        /* that stands for the picture's */
     uint64_t function_serial;     /* of the one that it was made of, */

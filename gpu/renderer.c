@@ -278,8 +278,13 @@ tc_status tc_gpu_explain(tc_explanation *out, const tc_gpu_renderer *r, tc_error
     if (!(r->last.needs & TC_NEEDS_NO_FUNCTION))
         add_size(out->texture, &out->n_texture, "transfer function", (double)t->bytes);
     add_size(out->texture, &out->n_texture, "rays and picture", (double)r->state.bytes);
-    for (int k = 0; k < r->last.n; k++)
-        add_size(out->texture, &out->n_texture, r->last.row[k]->name, r->last.bytes[k]);
+    for (int i = 0; tc_effect_table[i]; i++) {
+        int k = 0;
+        while (k < r->last.n && r->last.place[k] != i)
+            k++;
+        add_size(out->texture, &out->n_texture, tc_effect_table[i]->name,
+                 k < r->last.n ? r->last.bytes[k] : r->effects.bytes[i]);
+    }
     for (size_t k = 0; tc_program_cache_used(&name, &bytes, r->programs, k); k++)
         add_size(out->program, &out->n_program, name, (double)bytes);
     return TC_OK;
