@@ -52,7 +52,8 @@ typedef struct tc_figure {
 TC_API tc_status tc_figure_draw(tc_image *image, const tc_figure *figure, const tc_log *log, tc_error *err);
 
 /* Moves camera, without turning it, so that a box [6] is in the middle of what title and colour bar of the figure leave of a
- * picture of that size, with room for labels where the figure has axes. figure->camera and bounds are not looked at.
+ * picture of that size, with room for labels where the figure has axes; where these leave less than a third of its width or height, camera stays as
+ * it is. figure->camera and bounds are not looked at.
  * Errors: TC_E_ARG, as tc_figure_draw. */
 TC_API tc_status tc_figure_fit(tc_camera *camera, const tc_figure *figure, const double *bounds, int width, int height,
                                tc_error *err);

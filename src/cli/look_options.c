@@ -391,7 +391,7 @@ int tc_look_options_check(const tc_look_options *o, const tc_given_list *given, 
         return tc_needs(talk, "--surface-color", "is of --surface: give that too");
     if (tc_is_given(given, "--line-color") && !o->outline && !o->wireframe)
         return tc_needs(talk, "--line-color", "is of --outline and --wireframe: give one of them");
-    for (int i = 0; !o->color_bar && i < 2; i++) {
+    for (int i = 0; !o->color_bar && !tc_is_given(given, "--color-bar") && i < 2; i++) { /* it may have been put off */
         static const char *const of_bar[] = {"--color-bar-place", "--color-bar-opacity"};
         if (tc_is_given(given, of_bar[i]))
             return tc_needs(talk, of_bar[i], "is of --color-bar: give that too");

@@ -2,6 +2,7 @@
 #include "cli/render_picture.h"
 #include "cli/look_build.h"
 #include "cli/render_choose.h"
+#include "cli/render_figure.h"
 #include "cli/render_verify.h"
 #include "cli/render_view.h"
 
@@ -106,39 +107,6 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
     return -1;
 }
 
-/* Title, colour bar and axes over the picture, those that are asked for. */
-static tc_status tc_figure_make(const tc_render_run *run, tc_talk *talk, tc_error *err)
-{
-    const tc_look_options *o = &run->options->look;
-    const tc_look_parts *parts = run->look;
-    const bool second = parts->color_function != NULL;
-    const int place = o->bar_place == TC_BAR_NONE ? TC_BAR_RIGHT : o->bar_place;
-    if (!o->title && !o->color_bar && !o->axes && !o->triad)
-        return TC_OK;
-    const char *name = NULL;
-    if (second)
-        tc_field_info(NULL, NULL, &name, parts->look.color_field);
-    const tc_figure figure = {
-        .title = o->title,
-        .text_size = o->text_size,
-        .bar = o->color_bar ? (tc_bar)place : TC_BAR_NONE,
-        .function = second ? parts->color_function : run->tf,
-        .bar_title = second ? (name ? name : o->color_field) : tc_run_field(run),
-        .has_range = !o->categories,
-        .range = {second ? parts->color_range[0] : run->range[0], second ? parts->color_range[1] : run->range[1]},
-        .log = run->options->log && !second,
-        .n_category = parts->categories.n,
-        .category = parts->categories.value,
-        .category_name = parts->categories.name,
-        .bar_opacity = o->bar_opacity && !second,
-        .triad = o->triad,
-        .axes = o->axes,
-        .bounds = run->report.bounds,
-        .camera = &run->camera,
-    };
-    return tc_figure_draw(run->image, &figure, &talk->log, err);
-}
-
 static int tc_picture_write(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
 {
     const tc_render_command *options = run->options;
@@ -147,7 +115,8 @@ static int tc_picture_write(tc_render_run *run, tc_frames *frames, tc_talk *talk
     tc_meta_make(&meta, run, argc, argv);
     if (options->background.there)
         tc_image_background(run->image, options->background.rgba);
-    tc_status status = tc_figure_make(run, talk, &err);
+    tc_figure figure;
+    tc_status status = tc_render_figure(&figure, run) ? tc_figure_draw(run->image, &figure, &talk->log, &err) : TC_OK;
     double start = tc_talk_clock_s();
     if (status == TC_OK)
         status = frames->writer ? tc_image_writer_save(frames->writer, run->image, options->output, meta.pair, meta.n,

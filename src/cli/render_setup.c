@@ -1,5 +1,6 @@
 /* render_setup.c: from the command line of `render` to all that a picture is made of. */
 #include "cli/render_setup.h"
+#include "cli/render_figure.h"
 #include "cli/render_view.h"
 
 #include <math.h>
@@ -78,7 +79,8 @@ int tc_render_setup(tc_render_run *run, const double range[2], tc_talk *talk)
         tc_talk_error(talk, "memory ran out");
         return TC_EXIT_FAILED;
     }
-    if (!run->tf) {
+    const bool first = !run->tf; /* steps that follow keep function and camera */
+    if (first) {
         code = tc_transfer_make(run, range, talk);
         if (code < 0)
             code = tc_render_camera(&run->camera, run->options, run->report.bounds, talk);
@@ -88,7 +90,7 @@ int tc_render_setup(tc_render_run *run, const double range[2], tc_talk *talk)
     tc_render_set(&run->render, run->options);
     code = tc_look_build(run->look, run->mesh, run->options, talk);
     run->render.look = run->look->there ? &run->look->look : NULL;
-    return code;
+    return code < 0 && first ? tc_render_figure_fit(run, talk) : code;
 }
 
 int tc_render_open(tc_render_run *run, const tc_render_command *options, tc_talk *talk)

@@ -92,6 +92,8 @@ tc_status tc_figure_fit(tc_camera *camera, const tc_figure *figure, const double
     f.axes = figure->axes;
     free_room(&room, layout);
     free(layout);
+    if (3 * (room.x1 - room.x0) < width || 3 * (room.y1 - room.y0) < height)
+        return status; /* nothing is to be seen in less */
 
     tc_camera moved = *camera;
     for (int i = 0; i < 60 && status == TC_OK; i++) {

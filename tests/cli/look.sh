@@ -35,7 +35,32 @@ done
 picture a --field Material --color-bar --categories "1:1,0,0;2:0,1,0"
 picture b --field Material --color-bar --categories "1:1,0,0:copper;2:0,1,0:iron"
 other_pixels a.png b.png
+
+# What stands around the mesh is not over it: pixels of the figure and of the volume are others, and all there are.
+differing() { # differing A B: pixels
+    "$TETCAST" compare "$1" "$2" --json | sed -n 's/.*"differing": \([0-9]*\).*/\1/p'
+}
+apart() { # apart OPTION…: prints 1 where they are apart, else 0
+    run 0 render two.vtk --size 160x120 --driver reference --quiet -o both.png "$@"
+    run 0 render both.png --quiet -o volume.png --color-bar=off --axes=off --title " "
+    run 0 render both.png --quiet -o figure.png --opacity 0:0,2:0
+    [ "$(differing volume.png figure.png)" -eq "$(($(differing both.png volume.png) + $(differing both.png figure.png)))" ]
+}
+apart --color-bar --color-bar-place left --title Two || fail "the figure is over the mesh"
+run 0 render both.png --quiet -o again.png
+same_pixels both.png again.png
+apart --color-bar --zoom 1 && fail "a view that was asked for is another"
+picture a --color-bar --zoom 1
+picture b --color-bar --focal-point 1,0.5,0.5
+same_pixels a.png b.png
+picture b --color-bar
+other_pixels a.png b.png
+picture a --triad
+picture b --triad --zoom 1
+same_pixels a.png b.png
 size="--size 24x18 --driver reference --quiet"
+picture a --color-bar --axes
+same_pixels plain.png a.png # there is no room
 
 # What says the same is the same picture.
 picture a --select Material:2
@@ -81,7 +106,6 @@ while read -r look; do
     [ "$(effects pingpong.json | tr -d '"' | tr ',' ' ') " = "$(in_force explained.json)" ] ||
         fail "$look: effects $(effects pingpong.json), but explain tells $(in_force explained.json)"
 done <<'LOOKS'
---model xray --opacity 0:0.1,2:0.1
 --model mip --surface 0.5 --clip-box 0,1,0,1,0,0.5
 --shade vertex --select Material:2 --surface 0.5
 --iso 1 --shade cell --clip 0,0,0,1,0,0 --color-field Pres

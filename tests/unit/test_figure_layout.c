@@ -331,6 +331,26 @@ static void what_has_no_room_is_left_out_with_a_warning(void **state)
     assert_int_equal(s->layout->n, s->layout->n_front);
 }
 
+/* Where title and bar leave next to nothing the box is not made as small as that. */
+static void a_view_without_room_is_lost(void **state)
+{
+    scene *s = *state;
+    static const int small[][2] = {{1, 1}, {16, 16}, {24, 18}, {20, 400}, {400, 20}, {60, 200}, {200, 60}, {120, 90}};
+    for (size_t z = 0; z < sizeof small / sizeof *small; z++)
+        for (int bar = TC_BAR_NONE; bar <= TC_BAR_BOTTOM; bar++)
+            for (int parallel = 0; parallel < 2; parallel++) {
+                make(s, (tc_bar)bar, 2, small[z], parallel != 0, false);
+                const tc_camera before = s->camera;
+                assert_int_equal(tc_figure_fit(&s->camera, &s->figure, BOUNDS, small[z][0], small[z][1], NULL), TC_OK);
+                double old = 0, now = 0;
+                for (int k = 0; k < 3; k++) {
+                    old += pow(before.position[k] - before.focal_point[k], 2);
+                    now += pow(s->camera.position[k] - s->camera.focal_point[k], 2);
+                }
+                assert_true(now < 25 * old && s->camera.parallel_scale <= 5 * before.parallel_scale);
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -343,6 +363,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_bar_lacks_no_label, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_title_a_little_too_long_is_made_smaller, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_has_no_room_is_left_out_with_a_warning, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_view_without_room_is_lost, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
