@@ -16,8 +16,11 @@ static int count(const tc_look *look)
 static bool wanted(char *why, const tc_effect_scene *scene)
 {
     const tc_look *look = scene->look;
-    snprintf(why, TC_EFFECT_WHY, "%d plane%s%s", look->n_plane, look->n_plane == 1 ? "" : "s",
-             look->has_box ? " and a box" : "");
+    if (look->n_plane > 0)
+        snprintf(why, TC_EFFECT_WHY, "%d plane%s%s", look->n_plane, look->n_plane == 1 ? "" : "s",
+                 look->has_box ? " and a box" : "");
+    else
+        snprintf(why, TC_EFFECT_WHY, "%s", look->has_box ? "a box" : "no planes, no box");
     return count(look) > 0;
 }
 

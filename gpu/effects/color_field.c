@@ -22,7 +22,10 @@ typedef struct colors {
 static bool wanted(char *why, const tc_effect_scene *scene)
 {
     const tc_field *field = scene->look->color_field;
-    snprintf(why, TC_EFFECT_WHY, "colour by %s", field && field->name ? field->name : "a second field");
+    if (field)
+        snprintf(why, TC_EFFECT_WHY, "colour by %s", field->name ? field->name : "a second field");
+    else
+        snprintf(why, TC_EFFECT_WHY, "no second field");
     return field != NULL;
 }
 

@@ -10,7 +10,10 @@
 static bool wanted(char *why, const tc_effect_scene *scene)
 {
     int n = scene->look->n_iso;
-    snprintf(why, TC_EFFECT_WHY, "%d isosurface%s", n, n == 1 ? "" : "s");
+    if (n > 0)
+        snprintf(why, TC_EFFECT_WHY, "%d isosurface%s", n, n == 1 ? "" : "s");
+    else
+        snprintf(why, TC_EFFECT_WHY, "no isosurface");
     return n > 0;
 }
 
