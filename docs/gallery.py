@@ -54,6 +54,9 @@ SHOWN = [
          DISK, "--field Temp --color-field Pres --color-map Viridis --opacity 293:0,400:0.3,900:2 --azimuth 30 --elevation 35 --zoom 1.3 --background 1,1,1"),
         ("cell-data", "Cell data", "Constant in each cell, with crisp boundaries.",
          CAN, "--field EQPS --cell-data --opacity 0:0.5,2.9:6 --azimuth 60 --elevation 20 --zoom 1.3 --background 1,1,1"),
+        ("categories", "Materials", "A colour for each material number, and an opacity.",
+         PLATE, "--field mat_id --categories '1:1,0.3,0.2,0.3;2:0.2,0.7,0.2,2;3:0.2,0.3,1,0.5;4:1,0.8,0,6' --azimuth 20 --elevation -50 "
+                "--color-bar --background 1,1,1"),
         ("select", "Selection", "Whole cells within a range; the others are stepped through.",
          FIN, "--field Density --select Density:1.2,5 --opacity 0.19:0.4,5:1.5 --azimuth 25 --elevation 35 --zoom 1.15 --background 1,1,1"),
     ]),
