@@ -116,7 +116,7 @@ typedef struct tc_select {
  * lights and coefficients where `lit` (two-sided, by the triangle's own normal; not where the shade's gradient is NONE), over
  * what lies behind. Planes and the box do not cut it. MAXIMUM, MINIMUM and AVERAGE lie behind all of it. Of translucent
  * fragments at one depth that of the earlier geometry is the nearer, and its triangles before its lines.
- *   vertex [n_vertex][3]; triangle [n_triangle][3], line [n_line][2] vertex ids
+ *   vertex [n_vertex][3], within 10^4 diagonals of the mesh; triangle [n_triangle][3], line [n_line][2] vertex ids
  *   width  pixels: a line covers the pixels whose middles lie no farther than half of it from its picture, in the depth of
  *          its point nearest to them there, nearer to the eye by a length that looks as long as its width, so that lines on
  *          a surface are not lost in it. Lines are not lit, and not drawn by the driver "reference". */

@@ -54,6 +54,8 @@ bool tc_look_is_plain(const tc_look *look)
 /* ----------------------------------------------------------------------------------------------- what is wrong */
 
 /* Where a sentence goes. */
+static const double FAR = 1e4; /* diagonals of the mesh that geometry may reach beyond it */
+
 typedef struct sentence {
     char *text;
     size_t capacity;
@@ -275,10 +277,25 @@ static bool wrong_select(sentence s, const tc_look *look, const tc_mesh *mesh)
     return false;
 }
 
-static bool wrong_geometry(sentence s, const tc_look *look)
+/* Geometry is drawn in floats about the mesh's middle: far beyond it they tell no pixels apart. */
+static bool wrong_reach(sentence s, int i, const tc_geometry *g, const tc_mesh *mesh)
+{
+    const double *b = mesh->report.bounds;
+    double most = FAR * hypot(hypot(b[1] - b[0], b[3] - b[2]), b[5] - b[4]);
+    for (size_t v = 0; v < g->n_vertex; v++)
+        for (size_t k = 0; k < 3; k++)
+            if (!(fabs(g->vertex[3 * v + k] - 0.5 * (b[2 * k] + b[2 * k + 1])) <= most))
+                return wrong(s, "vertex %zu of geometry %d lies at %g,%g,%g, more than %g times the mesh's diagonal away; cut "
+                                "the geometry to what is near the mesh", v, i, g->vertex[3 * v], g->vertex[3 * v + 1],
+                             g->vertex[3 * v + 2], FAR);
+    return false;
+}
+
+static bool wrong_geometry(sentence s, const tc_look *look, const tc_mesh *mesh)
 {
     for (int i = 0; i < look->n_geometry; i++)
-        if (tc_geometry_wrong(s.text, s.capacity, &look->geometry[i]))
+        if (tc_geometry_wrong(s.text, s.capacity, &look->geometry[i]) ||
+            wrong_reach(s, i, &look->geometry[i], mesh))
             return true;
     return false;
 }
@@ -293,7 +310,7 @@ const char *tc_look_wrong(char *why, size_t capacity, const tc_look *look, const
               TC_MODEL_AVERAGE);
     else if (!mesh->prepared)
         wrong(s, "the mesh was not prepared; call tc_mesh_prepare first");
-    else if (!wrong_list(s, look->n_geometry, look->geometry, "geometries") && !wrong_geometry(s, look) &&
+    else if (!wrong_list(s, look->n_geometry, look->geometry, "geometries") && !wrong_geometry(s, look, mesh) &&
              !wrong_isos(s, look, mesh) && !wrong_shade(s, look) && !wrong_color(s, look, mesh) &&
              !wrong_clip(s, look) && !wrong_select(s, look, mesh))
         return NULL;

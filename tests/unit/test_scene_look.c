@@ -205,6 +205,7 @@ static void numbers_out_of_their_range_pass(void **state)
     REFUSED(s->look.n_geometry = -1, "-1 geometries", "0 or more");
     REFUSED(s->look.geometry = NULL, "1 geometries", "NULL");
     REFUSED(s->triangle[2] = 3, "geometry", "vertex 3");
+    REFUSED(s->vertex[4] = -1e6, "vertex 1 of geometry 0", "diagonal");
 }
 
 static void what_excludes_each_other_passes(void **state)
