@@ -4,6 +4,7 @@
 #include "cli/json_out.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -272,6 +273,11 @@ static int tc_output_kind_check(const char *path, tc_talk *talk)
     return TC_EXIT_USAGE;
 }
 
+static bool tc_is_output(const char *option)
+{
+    return !strcmp(option, "--output") || !strcmp(option, "--error-image") || !strcmp(option, "--stats");
+}
+
 static bool tc_equal3(const double *a, const double *b)
 {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
@@ -287,7 +293,39 @@ bool tc_same_file(const char *a, const char *b)
     return !strcmp(a, b);
 }
 
-/* The files to be written: each its own, none the input, pictures with a known extension, in folders that are there. */
+static int tc_refuse_output(const char *option, const char *path, const char *read, tc_talk *talk)
+{
+    tc_talk_error(talk, "%s is the file of %s and would be written over: give %s another name", path, read, option);
+    return TC_EXIT_USAGE;
+}
+
+/* Is none of the files that other options name the one to be written? */
+static int tc_output_read_check(const char *option, const char *path, const tc_render_command *out, tc_talk *talk)
+{
+    size_t n_key;
+    const tc_scene_key *key = tc_scene_keys(&n_key);
+    for (size_t i = 0; i < out->given.n; i++) {
+        const tc_given *given = &out->given.item[i];
+        for (size_t k = 0; k < n_key; k++) {
+            if (!key[k].option || strcmp(key[k].option, given->option->name) != 0)
+                continue;
+            const bool other = key[k].path == TC_PATH_FILE && !tc_is_output(key[k].option);
+            if ((other || (key[k].path == TC_PATH_MAYBE && tc_is_file(given->text))) &&
+                tc_same_file(given->text, path))
+                return tc_refuse_output(option, path, key[k].option, talk);
+        }
+    }
+    for (int i = 0; i < out->look.geometry.n; i++) {
+        char *read = tc_part_text(&out->look.geometry.file[i].file);
+        const bool same = read && tc_same_file(read, path);
+        free(read);
+        if (same)
+            return tc_refuse_output(option, path, "--geometry", talk);
+    }
+    return -1;
+}
+
+/* The files to be written: each its own, none the input or another that is read, pictures with a known extension, in folders that are there. */
 static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
 {
     const struct {
@@ -333,6 +371,9 @@ static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
         }
     }
     int code = -1;
+    for (int i = 0; i < N && code < 0; i++)
+        if (file[i].path)
+            code = tc_output_read_check(file[i].option, file[i].path, out, talk);
     for (int i = 0; i < N && code < 0; i++) {
         if (file[i].path && file[i].picture)
             code = tc_output_kind_check(file[i].path, talk);

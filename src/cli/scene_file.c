@@ -304,6 +304,12 @@ static char *tc_path_from(const char *folder, const char *path)
     return asprintf(&text, "%s/%s", folder, path) < 0 ? NULL : text;
 }
 
+bool tc_is_file(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
 /* The text of an option, its path led from the scene's folder; takes text over. */
 static char *tc_path_lead(const tc_scene_reader *r, tc_scene_path kind, char *text)
 {
