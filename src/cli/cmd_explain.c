@@ -151,7 +151,7 @@ static int tc_explain_run(tc_talk *talk, const tc_command *command, int argc, ch
     whole.n_option = TC_EXPLAIN_OWN + n;
     tc_render_command options;
     tc_render_run run = {0};
-    int code = tc_render_command_read(&options, talk, &whole, argc, argv);
+    int code = tc_picture_command_read(&options, talk, &whole, argc, argv);
     if (code < 0)
         code = tc_render_open(&run, &options, talk);
     if (code < 0)

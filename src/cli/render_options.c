@@ -444,8 +444,7 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
         tc_talk_error(talk, "--preset names a map of a file: give the file with --color-map");
         return TC_EXIT_USAGE;
     }
-    code = tc_look_options_check(&out->look, &out->given, talk);
-    return code < 0 ? tc_outputs_check(out, talk) : code;
+    return tc_look_options_check(&out->look, &out->given, talk);
 }
 
 /* --------------------------------------------------------------------------------------------------------- scenes */
@@ -535,7 +534,7 @@ static void tc_default_output_make(tc_render_command *out)
     out->output = out->default_output;
 }
 
-int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
+int tc_picture_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
 {
     int n_argument;
     tc_render_command_defaults(out);
@@ -554,9 +553,17 @@ int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_comma
     if (out->look.model == TC_MODEL_EMISSION && !tc_is_given(&out->given, "--background"))
         out->background = (tc_background){.there = true, .rgba = {0, 0, 0, 1}}; /* light alone is seen on black */
     out->source.keep_reader = out->look.color_field || out->look.select.n > 0 || out->look.blocks.n > 0;
+    return tc_render_check(out, talk);
+}
+
+int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
+{
+    int code = tc_picture_command_read(out, talk, command, argc, argv);
+    if (code >= 0)
+        return code;
     if (!out->output)
         tc_default_output_make(out);
-    return tc_render_check(out, talk);
+    return tc_outputs_check(out, talk);
 }
 
 void tc_render_command_finish(tc_render_command *command)

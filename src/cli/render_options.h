@@ -83,6 +83,8 @@ extern const size_t tc_n_render_option;
 /* Defaults, parsing, the scene file where INPUT is one, checks that need no mesh. -1 to go on, else the exit code. Whatever
  * it is, tc_render_command_finish frees what the struct holds. */
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv);
+/* The same for a command that writes no picture: output, error_image and stats are not looked at. */
+int tc_picture_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv);
 void tc_render_command_finish(tc_render_command *command);
 
 /* Do both names lead to one file, there or to be written? */

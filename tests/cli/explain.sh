@@ -27,6 +27,14 @@ run 0 render scene.json --quiet -o picture.png
 run 0 explain picture.png --quiet --json
 cmp -s out options.json || fail "a picture is explained otherwise than its options"
 absent scene.png
+
+# Nothing is written, so any INPUT and any name of a picture will do.
+cp picture.png two.png
+run 0 explain two.png --quiet --json
+cmp -s out options.json || fail "a picture named after its data is explained otherwise"
+cmp -s two.png picture.png || fail "explain wrote over the picture"
+run 0 explain scene.json --quiet -o scene.json --stats no.json
+absent no.json
 run 0 explain scene.json --quiet
 prints "in force"
 prints "isosurfaces"
