@@ -314,6 +314,116 @@ static void texts_do_not_come_back(void **state)
     tc_image_destroy(&image);
 }
 
+/* As a scene with thousands of categories has; a JPEG marker holds no more than 64 KiB, and says so. */
+static void a_long_text_is_lost(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.png", "a.exr", "a.tif"};
+    static const size_t length[] = {65000, 65536, 300000};
+    tc_image *image = noise(8, 8);
+    tc_error err = {0};
+    for (int k = 0; k < 3; k++) {
+        char *sent = malloc(length[k] + 1), *got;
+        assert_non_null(sent);
+        memset(sent, 'x', length[k]);
+        sent[length[k]] = 0;
+        const tc_text_pair pair = {"tetcast:scene", sent};
+        for (int i = 0; i < 3; i++) {
+            must(tc_image_writer_write(writer, image, in_folder(names[i]), NULL, &pair, 1, NULL, &err), &err);
+            must(tc_image_read_text(&got, in_folder(names[i]), "tetcast:scene", &err), &err);
+            if (!got || strcmp(got, sent) != 0)
+                fail_msg("%s: a text of %zu bytes comes back as one of %zu", names[i], length[k],
+                         got ? strlen(got) : 0);
+            free(got);
+        }
+        free(sent);
+    }
+    tc_image_destroy(&image);
+}
+
+enum { TIFF_PIXEL_MOST = 512 };
+
+static void put(uint8_t *file, size_t *at, uint64_t value, size_t bytes, bool big_endian)
+{
+    for (size_t i = 0; i < bytes; i++)
+        file[*at + i] = (uint8_t)(value >> 8 * (big_endian ? bytes - 1 - i : i));
+    *at += bytes;
+}
+
+/* A TIFF of one grey pixel with a description of this many bytes, its zero counted; its size. *at_description: its
+ * entry. */
+static size_t tiff_pixel(uint8_t *file, size_t *at_description, bool big, bool big_endian, const char *text,
+                         size_t length)
+{
+    enum { N = 8, ASCII = 2, SHORT = 3, LONG = 4 };
+    const size_t wide = big ? 8 : 4;
+    const uint64_t body = big ? 320 : 200;
+    const struct {
+        int tag, type;
+        uint64_t count, value;
+    } entry[N] = {{256, SHORT, 1, 1}, {257, SHORT, 1, 1},         {258, SHORT, 1, 8},       {259, SHORT, 1, 1},
+                  {262, SHORT, 1, 1}, {270, ASCII, length, body}, {273, LONG, 1, body - 1}, {279, LONG, 1, 1}};
+    size_t at = 0;
+    memset(file, 0, TIFF_PIXEL_MOST);
+    memcpy(file, big_endian ? "MM" : "II", 2);
+    at = 2;
+    put(file, &at, big ? 43 : 42, 2, big_endian);
+    if (big) {
+        put(file, &at, 8, 2, big_endian);
+        put(file, &at, 0, 2, big_endian);
+    }
+    put(file, &at, at + wide, wide, big_endian);
+    put(file, &at, N, big ? 8 : 2, big_endian);
+    for (int i = 0; i < N; i++) {
+        const bool text_here = entry[i].tag == 270 && length <= wide;
+        const size_t value_bytes = entry[i].type == SHORT ? 2 : entry[i].type == LONG ? 4 : wide;
+        if (entry[i].tag == 270)
+            *at_description = at;
+        put(file, &at, (uint64_t)entry[i].tag, 2, big_endian);
+        put(file, &at, (uint64_t)entry[i].type, 2, big_endian);
+        put(file, &at, entry[i].count, wide, big_endian);
+        size_t value = at;
+        if (text_here)
+            memcpy(file + at, text, length);
+        else
+            put(file, &value, entry[i].value, value_bytes, big_endian);
+        at += wide;
+    }
+    memcpy(file + body, text, length);
+    file[body - 1] = 0x80;
+    return (size_t)body + length;
+}
+
+static void a_tiff_of_another_byte_order_or_with_a_broken_text_is_misread(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 8; kind++) {
+        const bool big = kind & 1, big_endian = kind & 2;
+        const char *sent = kind & 4 ? "ab" : "a text that does not fit in place";
+        uint8_t *file = calloc(TIFF_PIXEL_MOST, 1);
+        tc_image *back;
+        tc_image_meta got;
+        tc_error err = {0};
+        size_t at = 0;
+        assert_non_null(file);
+        const size_t n = tiff_pixel(file, &at, big, big_endian, sent, strlen(sent) + 1);
+        must(tc_file_replace(in_folder("a.tif"), file, n, &err), &err);
+        must(tc_image_writer_read(&back, &got, writer, in_folder("a.tif"), &err), &err);
+        if (got.n != 1 || strcmp(got.pair[0].value, sent) != 0)
+            fail_msg("kind %d: '%s'", kind, got.n ? got.pair[0].value : "");
+        tc_image_meta_finish(&got);
+        tc_image_destroy(&back);
+        memset(file + at + 4, big_endian ? 0x7f : 0xff, big ? 8 : 4); /* longer than the file */
+        must(tc_file_replace(in_folder("a.tif"), file, n, &err), &err);
+        if (tc_image_writer_read(&back, &got, writer, in_folder("a.tif"), &err) == TC_OK) {
+            assert_int_equal(got.n, 0);
+            tc_image_meta_finish(&got);
+            tc_image_destroy(&back);
+        }
+        free(file);
+    }
+}
+
 static void one_text_is_not_found_or_a_short_file_is_read_beyond(void **state)
 {
     (void)state;
@@ -569,6 +679,8 @@ int main(void)
         TEST(jpeg_is_not_laid_over_white_or_does_not_say_so),
         TEST(glow_without_opacity_vanishes_from_png_silently),
         TEST(texts_do_not_come_back),
+        TEST(a_long_text_is_lost),
+        TEST(a_tiff_of_another_byte_order_or_with_a_broken_text_is_misread),
         TEST(one_text_is_not_found_or_a_short_file_is_read_beyond),
         TEST(png_texts_have_wrong_check_sums),
         TEST(png_texts_hold_what_is_not_utf8),

@@ -4,6 +4,7 @@
 #include "core/serve.h"
 #include "core/wire.h"
 #include "image/helper/png_text.h"
+#include "image/helper/tiff_text.h"
 #include "image/image.h"
 
 #include <OpenImageIO/imageio.h>
@@ -257,7 +258,8 @@ text_pairs texts_of(const std::string &format, const ImageSpec &spec, const uint
         }
         return pairs;
     }
-    std::string text = spec.get_string_attribute("ImageDescription");
+    std::string text =
+        format == "tiff" ? tiff_description_read(data, n) : std::string(spec.get_string_attribute("ImageDescription"));
     json_t *object = text.empty() ? nullptr : json_loads(text.c_str(), 0, nullptr);
     if (json_is_object(object)) {
         const char *key;
