@@ -49,11 +49,12 @@ tc_status tc_sniff_triangles(tc_sniffed *out, const char *path, const unsigned c
         out->format = TC_FORMAT_STL;
     else if (tc_sniff_ends(path, ".obj") && has_obj_vertex(head, n))
         out->format = TC_FORMAT_OBJ;
-    else if (starts(head, n, "OFF") || tc_sniff_ends(path, ".off") || tc_sniff_ends(path, ".g"))
-        return tc_fail(err, TC_E_FILE,
-                       "%s is a surface in a format that is not read (OFF or BYU); convert it: meshio convert "
-                       "%s out.ply",
+    else if (starts(head, n, "OFF") || tc_sniff_ends(path, ".off"))
+        return tc_fail(err, TC_E_FILE, "%s is an OFF surface, which is not read; convert it: meshio convert %s out.ply",
                        path, path);
+    else if (tc_sniff_ends(path, ".g"))
+        return tc_fail(err, TC_E_FILE,
+                       "%s is a BYU surface, which is not read; open it in ParaView and save it as .ply or .vtp", path);
     else if (n > 0 && (stl || tc_sniff_ends(path, ".obj") || tc_sniff_ends(path, ".ply")))
         return tc_fail(err, TC_E_FILE,
                        "%s is named like a surface (STL, OBJ or PLY), but its content is not; it is cut short, damaged "

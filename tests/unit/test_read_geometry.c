@@ -235,6 +235,9 @@ static void test_a_file_without_a_surface_is_drawn(void **state)
     assert_non_null(strstr(refused("empty.vtp", ""), "empty"));
     assert_non_null(strstr(refused("a.txt", "hello\n"), "no format that is known"));
     assert_non_null(strstr(refused("a.off", "OFF\n3 1 0\n"), "meshio convert"));
+    const char *byu = refused("a.g", "1 3 1 3\n"); /* which meshio does not know */
+    assert_non_null(strstr(byu, "ParaView"));
+    assert_null(strstr(byu, "meshio"));
     assert_non_null(strstr(refused("points.vtk", LEGACY_POINTS "VERTICES 1 2\n1 0\n"), "1 vertex"));
     assert_non_null(strstr(refused("bare.vtk", LEGACY_POINTS), "no cells at all"));
 }
