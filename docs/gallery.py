@@ -11,6 +11,7 @@ import shlex
 import subprocess
 import sys
 
+SIZE = "480x400"
 HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(HERE, "..", "..", "shared", "data")
 FIN, DISK, CAN = "bluntfin_tets.vtu", "vol/disk_out_ref.vtu", "vol/can.vtu"
@@ -118,11 +119,11 @@ def contours(tetcast, images):
     options = (f"--field Temp --model isosurface --iso {values} --iso-color '{colors}' --iso-opacity {opacities} --shade vertex "
                f"--azimuth {azimuth} --elevation {elevation} --background 1,1,1")
     ours = os.path.join(images, "gallery-contours-tetcast.png")
-    if render(tetcast, DISK, shlex.split(options), ours, "480x400"):
+    if render(tetcast, DISK, shlex.split(options), ours, SIZE):
         for kind in ("cells", "tets"):
             theirs = os.path.join(images, f"gallery-contours-vtk-{kind}.png")
             command = ["xvfb-run", "-a", "/usr/bin/python3", os.path.join(HERE, "contour_vtk.py"), os.path.join(DATA, DISK), theirs, "Temp",
-                       values, colors, opacities, "480x400", str(azimuth), str(elevation), kind]
+                       values, colors, opacities, SIZE, str(azimuth), str(elevation), kind]
             try:
                 subprocess.run(command, check=True, capture_output=True)
             except (OSError, subprocess.CalledProcessError):
@@ -135,7 +136,7 @@ def contours(tetcast, images):
             "| tetcast | VTK, hexahedra | VTK, tetrahedra |", "| --- | --- | --- |",
             "| ![tetcast](images/gallery-contours-tetcast.png) | ![VTK, hexahedra](images/gallery-contours-vtk-cells.png) | "
             "![VTK, tetrahedra](images/gallery-contours-vtk-tets.png) |", "",
-            "```sh", f"tetcast render {os.path.basename(DISK)} {options}", "```", ""]
+            "```sh", f"tetcast render {os.path.basename(DISK)} --size {SIZE} {options}", "```", ""]
 
 
 def main():
@@ -158,12 +159,12 @@ def main():
         page += [f"## {title}", ""]
         for name, heading, what, source, options in entries:
             picture = os.path.join(out, "images", f"gallery-{name}.png")
-            if not render(tetcast, source, shlex.split(options), picture, "480x400"):
+            if not render(tetcast, source, shlex.split(options), picture, SIZE):
                 print(f"gallery: {source} is not at hand: {name} stays as it is")
                 missing += 1
             elif sides:
-                render(tetcast, source, turned(options), os.path.join(sides, f"{name}-other.png"), "480x400")
-            command = f"tetcast render {os.path.basename(source)} {options}"
+                render(tetcast, source, turned(options), os.path.join(sides, f"{name}-other.png"), SIZE)
+            command = f"tetcast render {os.path.basename(source)} --size {SIZE} {options}"
             page += [f"### {heading}", "", what, "", f"![{heading}](images/gallery-{name}.png)", "", "```sh", command, "```", ""]
     page += contours(tetcast, os.path.join(out, "images"))
     with open(os.path.join(out, "gallery.md"), "w", encoding="utf-8") as file:
