@@ -21,6 +21,7 @@ typedef struct tc_categories {
     size_t n;
     tc_category *item; /* [n] */
     const char *from;  /* the file, or the option's name: stands in errors */
+    int wrong;         /* the exit code of what is wrong in it */
     tc_talk *talk;
 } tc_categories;
 
@@ -35,7 +36,7 @@ static int tc_add(tc_categories *c, const tc_knot *knot, const char *name, size_
 {
     if (c->n == TC_CATEGORIES_MOST) {
         tc_talk_error(c->talk, "%s has more than %d values", c->from, TC_CATEGORIES_MOST);
-        return TC_EXIT_FAILED;
+        return c->wrong;
     }
     tc_category *more = realloc(c->item, (c->n + 1) * sizeof *more);
     char *copy = more && length > 0 ? strndup(name, length) : NULL;
@@ -57,8 +58,8 @@ static bool tc_is_color(const double *rgb)
     return true;
 }
 
-/* V:R,G,B[,A][:NAME] */
-static int tc_entry(tc_categories *c, const char *text)
+/* V:R,G,B[,A][:NAME]; line 0: it stands in none */
+static int tc_entry(tc_categories *c, const char *text, int line)
 {
     double v[4] = {0, 0, 0, 1};
     tc_knot knot = {0};
@@ -72,16 +73,19 @@ static int tc_entry(tc_categories *c, const char *text)
         *name++ = 0;
     if (!colon || !tc_parse_real(&knot.s, word) || !tc_parse_reals(v, &n, 4, colon + 1) || n < 3 || !tc_is_color(v) ||
         v[3] < 0) {
-        tc_talk_error(c->talk, "%s: '%.100s' is not V:R,G,B[,A][:NAME] with R, G and B from 0 to 1 and A not below 0",
-                      c->from, text);
-        return TC_EXIT_USAGE;
+        char at[24] = "";
+        if (line > 0)
+            snprintf(at, sizeof at, ":%d", line);
+        tc_talk_error(c->talk, "%s%s: '%.100s' is not V:R,G,B[,A][:NAME] with R, G and B from 0 to 1 and A not below 0",
+                      c->from, at, text);
+        return c->wrong;
     }
     knot.r = v[0], knot.g = v[1], knot.b = v[2], knot.a = v[3];
     return tc_add(c, &knot, name, name ? strlen(name) : 0);
 }
 
-/* Entries with ';' or line ends between them, and comments from # to the line's end. */
-static int tc_entries(tc_categories *c, const char *text)
+/* Entries with ';' or line ends between them, and comments from # to the line's end. line: the first one's, 0: none. */
+static int tc_entries(tc_categories *c, const char *text, int line)
 {
     int code = -1;
     while (*text && code < 0) {
@@ -92,11 +96,12 @@ static int tc_entries(tc_categories *c, const char *text)
         size_t skip = strspn(text, " \t\r");
         if (keep > skip) {
             snprintf(word, sizeof word, "%.*s", (int)(keep - skip), text + skip);
-            code = tc_entry(c, word);
+            code = tc_entry(c, word, line);
         }
         text += length;
         if (*text == '#')
             text += strcspn(text, "\n");
+        line += line > 0 && *text == '\n';
         text += *text != 0;
     }
     return code;
@@ -166,12 +171,15 @@ static int tc_preset(tc_categories *c, char *text, const double range[2])
     for (size_t i = 0; n > 0 && i < n_value && code < 0; i++) {
         double rgb[3];
         tc_knot knot = {.a = 1};
-        for (size_t k = 0; k < 3; k++) /* colours come round again, as in ParaView */
-            rgb[k] = json_number_value(json_array_get(colors, 3 * (i % n) + k));
+        for (size_t k = 0; k < 3; k++) { /* colours come round again, as in ParaView */
+            const json_t *channel = json_array_get(colors, 3 * (i % n) + k);
+            rgb[k] = json_is_number(channel) ? json_number_value(channel) : NAN;
+        }
         knot.r = rgb[0], knot.g = rgb[1], knot.b = rgb[2];
         code = tc_preset_value(&knot.s, c, notes, i, range);
         if (code < 0 && !tc_is_color(rgb)) {
-            tc_talk_error(c->talk, "%s: colour %zu is not from 0 to 1 each", c->from, i % n + 1);
+            tc_talk_error(c->talk, "%s: colour %zu of IndexedColors is not three numbers from 0 to 1", c->from,
+                          i % n + 1);
             code = TC_EXIT_FAILED;
         }
         const char *name = json_string_value(json_array_get(notes, 2 * i + 1));
@@ -196,8 +204,9 @@ static int tc_file(tc_categories *c, const char *path, const double range[2])
     }
     fclose(stream);
     text[n] = 0;
-    const char *first = text + strspn(text, " \t\r\n");
-    int code = *first == '[' || *first == '{' ? tc_preset(c, text, range) : tc_entries(c, text);
+    char *start = strncmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text; /* a byte order mark says UTF-8 */
+    const char *first = start + strspn(start, " \t\r\n");
+    int code = *first == '[' || *first == '{' ? tc_preset(c, start, range) : tc_entries(c, start, 1);
     free(text);
     return code;
 }
@@ -244,13 +253,13 @@ static int tc_order(tc_categories *c)
 {
     if (c->n == 0) {
         tc_talk_error(c->talk, "%s names no value", c->from);
-        return TC_EXIT_USAGE;
+        return c->wrong;
     }
     qsort(c->item, c->n, sizeof *c->item, tc_by_value);
     for (size_t i = 1; i < c->n; i++)
         if (c->item[i].knot.s == c->item[i - 1].knot.s) {
             tc_talk_error(c->talk, "%s gives the value %g twice", c->from, c->item[i].knot.s);
-            return TC_EXIT_USAGE;
+            return c->wrong;
         }
     return -1;
 }
@@ -273,13 +282,14 @@ int tc_categories_make(tc_transfer **out, tc_category_list *list, const char *te
                        tc_talk *talk)
 {
     const bool file = access(text, F_OK) == 0;
-    tc_categories c = {.from = file ? text : "--categories", .talk = talk};
+    tc_categories c = {
+        .from = file ? text : "--categories", .wrong = file ? TC_EXIT_FAILED : TC_EXIT_USAGE, .talk = talk};
     int code;
     if (!file && !strchr(text, ':')) {
         tc_talk_error(talk, "--categories takes V:R,G,B[,A];… or a file, and there is no file %s", text);
         code = TC_EXIT_USAGE;
     } else {
-        code = file ? tc_file(&c, text, range) : tc_entries(&c, text);
+        code = file ? tc_file(&c, text, range) : tc_entries(&c, text, 0);
     }
     if (code < 0)
         code = tc_order(&c);

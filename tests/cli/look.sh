@@ -217,6 +217,9 @@ wrong 2 "--opacity is of a colour map" --categories "1:1,0,0" --opacity linear
 wrong 2 "there is no file none.txt" --categories none.txt
 wrong 2 "gives the value 1 twice" --categories "1:1,0,0;1:0,0,0"
 wrong 1 "no preset with IndexedColors" --categories two.json
+printf '# a\n1:1,0,0; 2:0,1,0\n\n3:1,0\n' >bad.txt
+wrong 1 "bad.txt:4: '3:1,0' is not V:R,G,B" --categories bad.txt
+wrong 2 "--categories: '3:1,0' is not V:R,G,B" --categories "1:1,0,0;3:1,0"
 wrong 2 "--color-bar-place is of --color-bar" --color-bar-place left
 wrong 2 "--driver reference draws no lines" --wireframe
 wrong 2 "--verify, the reference that is compared with, draws no lines" --driver auto --outline --verify 10

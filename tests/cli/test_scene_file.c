@@ -326,21 +326,33 @@ static void categories_meet_half_way(void **state)
     k = tc_transfer_knots(tf, &n);
     assert_true(n == 4 && k[0].s == 2.5 && k[1].s == 3.5 && k[3].s == 4.5); /* from the least value on */
     tc_transfer_destroy(&tf);
+    for (int preset = 0; preset < 2; preset++) { /* as editors of Windows save it */
+        scene_write("categories_test.txt", preset ? "\xef\xbb\xbf{\"IndexedColors\": [1, 0, 0]}"
+                                                  : "\xef\xbb\xbf"
+                                                    "3:1,0,0\n");
+        function_of(&tf, "categories_test.txt");
+        assert_true(list.n == 1 && list.value[0] == 3);
+        tc_transfer_destroy(&tf);
+    }
     static const char *const wrong[] = {"",           ";",      "1:2,0,0",    "1:0,0", "x:0,0,0", "1:0,0,0;1:1,1,1",
                                         "1:0,0,0,-1", "nofile", "1:0,0,0,0,0"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        if (tc_categories_make(&tf, &list, wrong[i], (const double[2]){0, 1}, &talk) < 0)
-            fail_msg("'%s' is taken", wrong[i]);
+        if (tc_categories_make(&tf, &list, wrong[i], (const double[2]){0, 1}, &talk) != TC_EXIT_USAGE)
+            fail_msg("'%s' is taken, or a failure", wrong[i]);
     static const char *const wrong_file[] = {"",
                                              "[]",
                                              "[{\"IndexedColors\": [1, 0]}]",
                                              "{\"IndexedColors\": [1, 2, 0]}",
+                                             "{\"IndexedColors\": [\"1\", 0, 0]}",
+                                             "{\"IndexedColors\": [1, 0, null]}",
+                                             "1:1,0,0\n1:0,0,0",
+                                             "1:1,0,0\nx",
                                              "{\"IndexedColors\": [1, 1, 0], \"Annotations\": [\"a\", \"a\"]}",
                                              "{"};
     for (size_t i = 0; i < sizeof wrong_file / sizeof *wrong_file; i++) {
         scene_write("categories_test.txt", wrong_file[i]);
-        if (tc_categories_make(&tf, &list, "categories_test.txt", (const double[2]){0, 1}, &talk) < 0)
-            fail_msg("a file of '%s' is taken", wrong_file[i]);
+        if (tc_categories_make(&tf, &list, "categories_test.txt", (const double[2]){0, 1}, &talk) != TC_EXIT_FAILED)
+            fail_msg("a file of '%s' is taken, or a wrong use", wrong_file[i]);
     }
     tc_category_list_finish(&list);
     unlink("categories_test.txt");
