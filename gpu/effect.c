@@ -94,6 +94,7 @@ tc_status tc_effects_choose(tc_effects *out, const tc_effect_scene *scene, tc_er
         if (row->define)
             row->define(out->defines + n, sizeof out->defines - n, scene);
         out->rounds += row->rounds ? row->rounds(scene) : 0;
+        out->nonfinite = out->nonfinite || (row->nonfinite && row->nonfinite(scene));
         out->n++;
     }
     return check(out, err);
@@ -235,9 +236,10 @@ void tc_effects_nan_color(double color[4], const tc_effects *effects)
 
 void tc_effects_brighten(double most[3], const tc_effects *effects)
 {
-    for (int k = 0; k < effects->n; k++)
-        if (effects->row[k]->brighten)
-            effects->row[k]->brighten(most, &effects->scene);
+    for (int lights = 0; lights < 2; lights++)
+        for (int k = 0; k < effects->n; k++)
+            if (effects->row[k]->brighten && effects->row[k]->lights == (lights == 1))
+                effects->row[k]->brighten(most, &effects->scene);
 }
 
 void tc_effects_names(char *out, size_t capacity, const tc_effects *effects)

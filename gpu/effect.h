@@ -65,6 +65,8 @@ typedef struct tc_effect {
     void (*define)(char *out, size_t capacity, const tc_effect_scene *scene);
     /* The function that stands for the picture's; NULL: itself. In place, knot by knot. */
     void (*knot)(tc_knot *knot, const tc_effect_scene *scene);
+    /* May it leave cells without a value? Then these are as cells whose own is not finite. NULL: no. */
+    bool (*nonfinite)(const tc_effect_scene *scene);
     /* Rounds of march.glsl's loop that a step may take besides; NULL: none. */
     int (*rounds)(const tc_effect_scene *scene);
     /* Packs and uploads what is not there yet. *bytes gets what it holds on the GPU. state: zeros at first, of state_bytes. */
@@ -79,8 +81,9 @@ typedef struct tc_effect {
     size_t (*held)(const void *state);
     /* Binds what its shaders read: the program of the march, or the one that makes colours of what rays gathered. */
     void (*bind)(const void *state, const tc_effect_scene *scene, const tc_job *job, GLuint program);
-    /* The largest r, g, b that light may make of colours up to most; NULL: no more. */
+    /* The largest r, g, b with its own colours, where those of the others are up to most; NULL: no more. */
     void (*brighten)(double most[3], const tc_effect_scene *scene);
+    bool lights; /* brighten is of light, on all other colours */
 } tc_effect;
 
 /* All rows, in the order in which their sections stand; NULL ends them. */
@@ -96,6 +99,7 @@ typedef struct tc_effects {
     tc_effect_scene scene;
     unsigned needs;
     int rounds;
+    bool nonfinite;
     char shaders[512], defines[512];
     const char *integrator;
     double bytes[TC_EFFECTS_MOST];

@@ -10,6 +10,7 @@
 
 enum { UNIT_VERTICES, UNIT_ITEMS, UNIT_PLANES, UNIT_OPAQUE_Z, UNIT_OPAQUE_COLOR, UNIT_MASK };
 enum { IMAGE_HEADS, IMAGE_NODES };
+enum { LIST_MOST = 2500 }; /* nodes that are sorted within the rounds that software renderers make of a loop */
 enum { NODE_TEXELS = 2, NODE_BYTES = 32, NODES_LEAST = 1 << 14 };
 
 enum kind { TRIANGLES, LINES };
@@ -58,8 +59,8 @@ static tc_status get_draw(GLuint *program, const tc_layers_scene *scene, const t
 
 static tc_status get_order(GLuint *program, const tc_layers_scene *scene, const tc_job *job, tc_error *err)
 {
-    char defines[64];
-    snprintf(defines, sizeof defines, "%s%s%s", has(scene, true) ? "#define OPAQUE\n" : "",
+    char defines[96];
+    snprintf(defines, sizeof defines, "%s%s%s%s", job->software ? "#define SOFTWARE\n" : "", has(scene, true) ? "#define OPAQUE\n" : "",
              has(scene, false) ? "#define LISTS\n" : "", job->masked ? "#define SAMPLE_MASK\n" : "");
     const tc_program_source source = {"screen.vert", "effects/geometry_order.frag", defines, NULL, NULL};
     return tc_program_get(program, job->programs, &source, err);
@@ -298,7 +299,15 @@ static tc_status order(const tc_layers *l, const tc_layers_scene *scene, const t
     if (job->masked)
         tc_pass_texture(gl, program, "sample_mask", UNIT_MASK, GL_TEXTURE_2D, job->state->mask);
     tc_pass_screen(gl);
-    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    GLuint longest = 0;
+    if (job->software && has(scene, false))
+        gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, sizeof longest, sizeof longest, &longest);
+    if (longest > LIST_MOST)
+        return tc_fail(err, TC_E_MEMORY,
+                       "%u triangles or lines that are not opaque lie behind one another in a pixel, %s sorts %d; show less of "
+                       "them or make them opaque",
+                       longest, gl->renderer, LIST_MOST);
     return TC_OK;
 }
 
@@ -321,6 +330,8 @@ tc_status tc_layers_draw(tc_layers *l, const tc_layers_scene *scene, const tc_jo
     tc_status status = ensure_textures(l, opaque, job, err);
     if (status == TC_OK)
         status = ensure_nodes(l, opaque_nodes, job, err);
+    else
+        tc_layers_finish(l, gl);
     gl->Viewport(0, 0, job->state->width, job->state->height);
     gl->Disable(GL_DEPTH_TEST);
     gl->DepthMask(GL_FALSE);

@@ -431,7 +431,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.transfer = &r->transfer.textures;
     job.has_imaginary = mesh->n_imaginary > 0;
     job.peel = peel;
-    job.nonfinite = mesh->report.nonfinite_scalars > 0;
+    job.nonfinite = mesh->report.nonfinite_scalars > 0 || effects.nonfinite;
     job.has_nan_color = job.nonfinite && options->has_nan_color;
     memcpy(job.nan_color, options->nan_color, sizeof job.nan_color);
     tc_effects_nan_color(job.nan_color, &effects);

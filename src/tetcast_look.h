@@ -134,7 +134,8 @@ typedef struct tc_look {
     const tc_iso *iso; /* [n_iso] values all different */
     tc_shade shade;
     /* Colour by one field, opacity by another: color_function gives the colours, by color_field, and the picture's own function
-     * the attenuation, by the mesh's scalar. Point data are interpolated linearly in a cell, cell data are the cell's. */
+     * the attenuation, by the mesh's scalar. A cell of which the color_field has a value that is not finite is as one whose
+     * scalar is not. Point data are interpolated linearly in a cell, cell data are the cell's. */
     const tc_field *color_field;
     const tc_transfer *color_function;
     int n_plane;

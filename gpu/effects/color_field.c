@@ -40,13 +40,18 @@ static int rounds(const tc_effect_scene *scene)
     return (int)(scene->look->color_function->n < 30000 ? scene->look->color_function->n : 30000);
 }
 
+static bool nonfinite(const tc_effect_scene *scene)
+{
+    return !scene->look->color_field->finite;
+}
+
 static tc_status upload_values(colors *c, const tc_field *field, const tc_gl *gl, tc_error *err)
 {
     float *value = tc_alloc(field->n, sizeof *value);
     if (!value)
         return tc_fail_memory(err, "the values to colour by", field->n, sizeof *value);
     for (size_t i = 0; i < field->n; i++)
-        value[i] = isfinite(field->value[i]) ? (float)tc_place(field->value[i], field->range[0], field->range[1]) : 0;
+        value[i] = isfinite(field->value[i]) ? (float)tc_place(field->value[i], field->range[0], field->range[1]) : NAN;
     tc_status status = tc_texture_buffer_upload(&c->values, gl, value, field->n, sizeof *value, GL_R32F,
                                                 "uploading the values to colour by", err);
     free(value);
@@ -151,6 +156,7 @@ const tc_effect tc_effect_color_field = {
     .wanted = wanted,
     .define = define,
     .rounds = rounds,
+    .nonfinite = nonfinite,
     .state_bytes = sizeof(colors),
     .update = update,
     .finish = finish,

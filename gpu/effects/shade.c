@@ -122,6 +122,7 @@ const tc_effect tc_effect_shade = {
     .wanted = shade_wanted,
     .bind = shade_bind,
     .brighten = shade_brighten,
+    .lights = true,
 };
 
 /* -------------------------------------------------------------------------------------------------- isosurfaces */
@@ -139,4 +140,5 @@ const tc_effect tc_effect_shade_iso = {
     .shaders = "effects/shade_iso.glsl",
     .wanted = iso_wanted,
     .brighten = shade_brighten,
+    .lights = true,
 };

@@ -85,7 +85,7 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
     // its vertices.
     if (isnan(segment.s0) || isnan(segment.s1)) {
 #ifdef NAN_COLOR
-        integral_add_constant(integral, march_nan_color, segment.real ? (segment.z1 - segment.z0) * march_unit : 0.0);
+        integral_add_constant(integral, march_nan_color, segment.real ? (segment.z1 - segment.z0) * march_unit : 0.0); //@or march_constant
 #endif
         segment.real = false;
         segment.s1 = isnan(segment.s1) ? 0.0 : segment.s1;

@@ -40,10 +40,13 @@ static void measure(tc_field *f, const tc_mesh *m)
 {
     const size_t n = f->association == TC_CELL_DATA ? m->n_tet : m->n_vertex - m->report.n_steiner;
     double lo = INFINITY, hi = -INFINITY;
+    f->finite = true;
     for (size_t i = 0; i < n; i++) {
         const double x = f->value[i];
-        if (!isfinite(x))
+        if (!isfinite(x)) {
+            f->finite = false;
             continue;
+        }
         lo = x < lo ? x : lo;
         hi = x > hi ? x : hi;
     }

@@ -11,6 +11,7 @@ struct tc_field {
     size_t n;      /* mesh->n_vertex, or mesh->n_tet */
     double *value; /* [n] in the order of mesh->vertex (0 at Steiner points) or of mesh->tet's real cells */
     double range[2]; /* of what is finite; 0, 0: nothing */
+    bool finite;     /* all of it is */
     char *name;      /* may be NULL */
 };
 

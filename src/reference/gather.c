@@ -242,7 +242,7 @@ static void add_cell(walk *w, const cell *c)
 static void add_projection(walk *w)
 {
     double value = w->look->model == TC_MODEL_MAXIMUM ? w->most : w->least, rgba[4];
-    if (!(w->length > 0))
+    if (!(w->length > TOUCH)) /* met in a point, up to rounding */
         return;
     if (w->look->model == TC_MODEL_AVERAGE)
         value = fmin(fmax(w->integral / w->length, w->least), w->most);

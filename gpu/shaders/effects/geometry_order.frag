@@ -22,6 +22,12 @@ void node_link(int node, int next)
     imageStore(layer_nodes, 2 * node + 1, place);
 }
 
+#if defined(LISTS) && defined(SOFTWARE)
+layout(std430, binding = 0) restrict buffer Used {
+    uint nodes_used, longest; // of all lists; nodes of the longest one
+};
+#endif
+
 #ifdef LISTS
 bool node_first(int a, int b)
 {
@@ -71,7 +77,14 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     int head = 0, last = 0;
 #ifdef LISTS
-    head = sorted(int(imageLoad(layer_heads, pixel).x), last);
+    head = int(imageLoad(layer_heads, pixel).x);
+#ifdef SOFTWARE
+    int n = 0;
+    for (int p = head; p != 0; p = node_next(p))
+        n++;
+    atomicMax(longest, uint(n));
+#endif
+    head = sorted(head, last);
 #endif
 #ifdef OPAQUE
     float z = texelFetch(opaque_z, pixel, 0).x;

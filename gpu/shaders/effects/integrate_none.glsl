@@ -35,7 +35,6 @@ void integral_stop(inout Integral i, float s)
 #ifdef NAN_COLOR
 void integral_add_constant(inout Integral i, vec4 color, float l)
 {
-    gathered_add(i.sum, color.rgb, color.a * l);
 }
 #endif
 

@@ -10,8 +10,17 @@ struct Parts {
     float from, to; // the part that is being added: shares of the whole
     int end;
     bool left;      // there are more
+#ifdef NAN_COLOR
+    bool constant;  // all of it has the colour of missing values
+#endif
 };
-Parts parts = Parts(Segment(0.0, 0.0, 0.0, 0.0, false, -1), 0.0, 0.0, PART_END, false); //@then parts_declare
+#ifdef NAN_COLOR
+bool parts_constant = false; // of the segment that is being made
+Parts parts = Parts(Segment(0.0, 0.0, 0.0, 0.0, false, -1), 0.0, 0.0, PART_END, false, false);
+#else
+Parts parts = Parts(Segment(0.0, 0.0, 0.0, 0.0, false, -1), 0.0, 0.0, PART_END, false);
+#endif
+const int PARTS_DECLARED = 1; //@then parts_declare
 
 // Adds the next part.
 void parts_next(inout Integral integral, Ray ray)
@@ -24,13 +33,23 @@ void parts_next(inout Integral integral, Ray ray)
     float s = end == PART_END ? parts.whole.s1 : mix(parts.whole.s0, parts.whole.s1, parts.to); //@then part_scalar
     float length = (parts.whole.z1 - parts.whole.z0) * (parts.to - parts.from);
     integral_add(integral, s, parts.whole.real ? length * march_unit : 0.0); //@then part_added
+#ifdef NAN_COLOR
+    integral_add_constant(integral, march_nan_color, parts.constant ? length * march_unit : 0.0);
+#endif
 }
 
 //@section march_add
     parts.whole = segment;
     parts.from = 0.0;
     parts.to = 0.0;
+#ifdef NAN_COLOR
+    parts.constant = parts_constant;
+    parts_constant = false;
+#endif
     parts.left = true; //@then part_begin
+
+//@section march_constant
+        parts_constant = segment.real;
 
 //@section march_next
             if (!open) {
