@@ -145,22 +145,24 @@ static int tc_number_write(char *out, size_t capacity, const tc_format *f, doubl
     }
 }
 
+enum { TC_PLACEHOLDERS = 2 };
+static const struct {
+    const char *name;
+    bool whole;
+} tc_placeholder[TC_PLACEHOLDERS] = {{"{step", true}, {"{time", false}};
+
 /* {step…} or {time…} at text. False where it is neither. */
 static bool tc_field_put(tc_text *name, const char **text, int step, double time)
 {
-    static const struct {
-        const char *name;
-        bool whole;
-    } field[] = {{"{step", true}, {"{time", false}};
-    for (size_t i = 0; i < 2; i++) {
-        size_t length = strlen(field[i].name);
+    for (size_t i = 0; i < TC_PLACEHOLDERS; i++) {
+        size_t length = strlen(tc_placeholder[i].name);
         char number[400];
         tc_format format;
-        if (strncmp(*text, field[i].name, length) != 0)
+        if (strncmp(*text, tc_placeholder[i].name, length) != 0)
             continue;
-        if (!tc_format_parse(&format, text, *text + length, field[i].whole))
+        if (!tc_format_parse(&format, text, *text + length, tc_placeholder[i].whole))
             return false;
-        int n = tc_number_write(number, sizeof number, &format, field[i].whole ? step : time);
+        int n = tc_number_write(number, sizeof number, &format, tc_placeholder[i].whole ? step : time);
         tc_put(name, number, n > 0 && (size_t)n < sizeof number ? (size_t)n : 0);
         return true;
     }
@@ -214,5 +216,14 @@ bool tc_step_name(char *out, size_t capacity, const char *pattern, int step, dou
     if (name.length < capacity)
         return true;
     snprintf(why, capacity_why, "a name of it has more than %zu characters", capacity - 1);
+    return false;
+}
+
+bool tc_step_is_in_name(const char *pattern)
+{
+    for (const char *at = pattern; (at = strchr(at, '{')); at += at[1] == '{' ? 2 : 1)
+        for (size_t i = 0; i < TC_PLACEHOLDERS; i++)
+            if (!strncmp(at, tc_placeholder[i].name, strlen(tc_placeholder[i].name)))
+                return true;
     return false;
 }

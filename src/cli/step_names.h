@@ -27,4 +27,7 @@ size_t tc_step_range_list(int *step, size_t capacity, const tc_step_range *range
 bool tc_step_name(char *out, size_t capacity, const char *pattern, int step, double time, char *why,
                   size_t capacity_why);
 
+/* Has the pattern a {step} or a {time}? Braces in pairs are none. */
+bool tc_step_is_in_name(const char *pattern);
+
 #endif

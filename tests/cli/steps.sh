@@ -54,6 +54,30 @@ absent run_0002.png
 says "step 1: 2 tets"
 says "step 3: 2 tets"
 
+# One step fills its names, too; without placeholders they stay as they are.
+for given in "--step 2" "--step -2" "--time 0.23"; do
+    # shellcheck disable=SC2086
+    run 0 render run.pvd $small $given -o "one_{step:02d}_{time}.png" --error-image "e{step}.png"
+    there one_02_0.225.png
+    there e2.png
+    rm -f one_02_0.225.png e2.png
+done
+run 0 render run.pvd $small --step 2 -o "{{step}}.png"
+there "{{step}}.png"
+run 0 render run.pvd $small -o "{step}.png" # no step was asked for
+there "{step}.png"
+for name in "x{step:q}.png 2" "nowhere{step}/{step}.png 1" "{step}.vtu 2"; do
+    run "${name##* }" render run.pvd $small --step 1 -o "${name% *}"
+    one_line
+done
+run 0 render run.pvd $small --step 1 -o 1.png
+"$TETCAST" render 1.png --quiet -o "{step}.png" >out 2>err && fail "a picture is written over the one it is made from"
+says "1.png is the input"
+run 2 render run.pvd $small --step 1 -o "a{step}.png" --error-image "a{step:d}.png"
+says "a1.png is the name of two files"
+run 2 render run.pvd $small --step 1 -o "a{step}.png" --stats a1.png
+says "a1.png is the name of two files"
+
 # What cannot be: a step that is not there, names that meet, the input, one stdout.
 wrong() { # wrong CODE TEXT ARGUMENT…
     want_code=$1

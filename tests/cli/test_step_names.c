@@ -94,6 +94,19 @@ static void a_name_is_not_that_of_its_pattern(void **state)
     }
 }
 
+static void a_placeholder_is_not_seen(void **state)
+{
+    (void)state;
+    static const char *const with[] = {"{step}.png", "a{time:.3f}", "{{{step}}}", "{x{step", "a_{steps}"};
+    static const char *const without[] = {"", "{", "a.png", "step}", "{{step}}", "{ste", "{{{{time}}}}", "{x}"};
+    for (size_t i = 0; i < sizeof with / sizeof *with; i++)
+        if (!tc_step_is_in_name(with[i]))
+            fail_msg("%s", with[i]);
+    for (size_t i = 0; i < sizeof without / sizeof *without; i++)
+        if (tc_step_is_in_name(without[i]))
+            fail_msg("%s", without[i]);
+}
+
 static void a_name_that_does_not_fit_is_cut(void **state)
 {
     (void)state;
@@ -116,6 +129,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_range_is_misread),
         cmocka_unit_test(a_name_is_not_that_of_its_pattern),
+        cmocka_unit_test(a_placeholder_is_not_seen),
         cmocka_unit_test(a_name_that_does_not_fit_is_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
