@@ -265,7 +265,7 @@ typedef struct tc_transfer tc_transfer;
 
 typedef struct tc_transfer_options {
     const char *color_map; /* name of a built-in map or a ParaView preset (.json, .xml); NULL: "Cool to Warm" */
-    const char *preset;    /* which map of a file that holds several; NULL: the first */
+    const char *preset;    /* which map of a file that holds several; NULL: the first; refused of a built-in map */
     const char *opacity;   /* file, "S:A,S:A,…", "linear", "geom", "sigmoid"; NULL: the preset's own, else linear 0 to 0.3 */
     bool has_range;
     double range[2];       /* the scalars that the map spans; has_range, else data_range */

@@ -94,6 +94,11 @@ static tc_status load_color_map(tc_preset **out, const tc_transfer_options *opti
     const char *const *builtin = tc_transfer_builtin(&n);
     for (size_t i = 0; i < n; i++)
         if (tc_preset_name_equal(builtin[i], name)) {
+            if (options->preset)
+                return tc_fail(err, TC_E_ARG,
+                               "the preset \"%.80s\" is of a file, but the colour map \"%s\" is a built-in one: leave "
+                               "the preset out, or give a .json or .xml file as the colour map",
+                               options->preset, builtin[i]);
             *out = tc_builtin_preset(i);
             return *out ? TC_OK : tc_fail_memory(err, "a built-in colour map", 1, sizeof **out);
         }

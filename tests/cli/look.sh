@@ -215,6 +215,7 @@ wrong 2 "LO below HI" --color-field Pres --color-range 1,0
 wrong 2 "--color-map and --categories both" --categories "1:1,0,0" --color-map Viridis
 wrong 2 "--opacity is of a colour map" --categories "1:1,0,0" --opacity linear
 wrong 2 "there is no file none.txt" --categories none.txt
+wrong 2 "the colour map \"Viridis\" is a built-in one" --color-map viridis --preset nonsense
 wrong 2 "gives the value 1 twice" --categories "1:1,0,0;1:0,0,0"
 wrong 1 "no preset with IndexedColors" --categories two.json
 printf '# a\n1:1,0,0; 2:0,1,0\n\n3:1,0\n' >bad.txt
