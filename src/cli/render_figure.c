@@ -2,6 +2,20 @@
 #include "cli/render_figure.h"
 #include "cli/look_build.h"
 
+/* Why no colour of the picture is the function's, which a colour bar would tell; NULL: some are. */
+static const char *tc_bar_untrue(const tc_look *look)
+{
+    const bool white = look->model == TC_MODEL_XRAY, black = look->model == TC_MODEL_ABSORPTION;
+    if (!white && !black && look->model != TC_MODEL_SURFACES)
+        return NULL;
+    for (int i = 0; i < look->n_iso; i++)
+        if (!look->iso[i].has_color)
+            return NULL;
+    return white   ? "with --model xray all matter is white"
+           : black ? "with --model absorption all matter is black"
+                   : "each isosurface has a colour of --iso-color";
+}
+
 bool tc_render_figure(tc_figure *out, const tc_render_run *run)
 {
     const tc_look_options *o = &run->options->look;
@@ -14,7 +28,7 @@ bool tc_render_figure(tc_figure *out, const tc_render_run *run)
     *out = (tc_figure){
         .title = o->title,
         .text_size = o->text_size,
-        .bar = o->color_bar ? (tc_bar)place : TC_BAR_NONE,
+        .bar = o->color_bar && !tc_bar_untrue(&parts->look) ? (tc_bar)place : TC_BAR_NONE,
         .function = second ? parts->color_function : run->tf,
         .bar_title = second ? (name ? name : o->color_field) : tc_run_field(run),
         .has_range = !o->categories,
@@ -29,7 +43,7 @@ bool tc_render_figure(tc_figure *out, const tc_render_run *run)
         .bounds = run->report.bounds,
         .camera = &run->camera,
     };
-    return o->title || o->color_bar || o->axes || o->triad;
+    return o->title || out->bar || o->axes || o->triad;
 }
 
 int tc_render_figure_fit(tc_render_run *run, tc_talk *talk)
@@ -39,6 +53,9 @@ int tc_render_figure_fit(tc_render_run *run, tc_talk *talk)
     const tc_render_command *options = run->options;
     tc_figure figure;
     tc_error err = {0};
+    const char *untrue = options->look.color_bar ? tc_bar_untrue(&run->look->look) : NULL;
+    if (untrue)
+        tc_talk_warning(talk, "--color-bar is left out: %s, so that no colour stands for a value", untrue);
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (tc_is_given(&options->given, own[i]))
             return -1;

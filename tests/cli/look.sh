@@ -36,6 +36,30 @@ picture a --field Material --color-bar --categories "1:1,0,0;2:0,1,0"
 picture b --field Material --color-bar --categories "1:1,0,0:copper;2:0,1,0:iron"
 other_pixels a.png b.png
 
+# A bar stands where a colour is the function's, and nowhere else.
+bar() { # bar same|other OPTION…: beside the picture without one
+    which=$1
+    shift
+    picture b "$@"
+    run 0 render two.vtk --size 240x180 --driver reference -o a.png "$@" --color-bar --zoom 1
+    if [ "$which" = same ]; then
+        same_pixels a.png b.png
+        says "--color-bar is left out"
+    else
+        other_pixels a.png b.png
+        says_not "--color-bar is left out"
+    fi
+}
+bar same --model xray
+bar same --model absorption --background 1,1,1
+bar same --model isosurface --iso 0.5,1.5 --iso-color 1,0,0
+bar other --model isosurface --iso 0.5,1.5
+bar other --iso 0.5 --iso-color 1,0,0
+bar other --model mip
+run 0 render two.vtk --size 240x180 --driver reference -o a.png --model xray --color-bar --quiet
+picture b --model xray # in the same view
+same_pixels a.png b.png
+
 # What stands around the mesh is not over it: pixels of the figure and of the volume are others, and all there are.
 differing() { # differing A B: pixels
     "$TETCAST" compare "$1" "$2" --json | sed -n 's/.*"differing": \([0-9]*\).*/\1/p'
