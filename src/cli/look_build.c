@@ -194,8 +194,9 @@ static void tc_isos_make(tc_look_parts *parts, const tc_look_options *o)
 /* ------------------------------------------------------------------------------------------------------- geometry */
 
 /* Files are read once. */
-static int tc_files_read(tc_look_parts *parts, const tc_look_options *o, tc_talk *talk)
+static int tc_files_read(tc_look_parts *parts, const tc_render_command *options, tc_talk *talk)
 {
+    const tc_look_options *o = &options->look;
     tc_error err = {0};
     while (parts->n_file < o->geometry.n) {
         const int i = parts->n_file, n_color = o->geometry_color.n;
@@ -204,10 +205,17 @@ static int tc_files_read(tc_look_parts *parts, const tc_look_options *o, tc_talk
         if (!path)
             return tc_memory_out(talk);
         tc_status status = tc_geometry_read(one, path, &talk->log, &err);
+        const bool judged = status == TC_OK && one->n_line > 0 && options->has_verify;
+        if (judged)
+            tc_talk_error(talk,
+                          "%s has %zu lines, and the reference that --verify compares with draws none: leave out %s",
+                          path, one->n_line, options->error_image ? "--error-image" : "--verify");
         free(path);
         if (status)
             return tc_talk_status(talk, status, &err);
         parts->n_file++;
+        if (judged)
+            return TC_EXIT_USAGE;
         one->opacity = o->geometry.file[i].opacity;
         memcpy(one->color, n_color == 0 ? tc_grey : o->geometry_color.rgb[n_color > 1 ? i : 0], sizeof one->color);
     }
@@ -240,7 +248,7 @@ static int tc_geometry_make(tc_look_parts *parts, const tc_mesh *mesh, const tc_
     const tc_look_options *o = &options->look;
     const double ink = tc_is_dark(&options->background) ? 1 : 0, line[3] = {ink, ink, ink};
     const double *lines = o->has_line_color ? o->line_color : line;
-    int code = tc_files_read(parts, o, talk);
+    int code = tc_files_read(parts, options, talk);
     parts->look.n_geometry = parts->n_file;
     parts->look.geometry = parts->geometry;
     if (code < 0 && o->outline)

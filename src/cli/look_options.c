@@ -107,17 +107,25 @@ static bool tc_some_direction(const double *v, const char *what, char *why)
 
 /* --------------------------------------------------------------------------------------------------------- values */
 
+/* From 1 to TC_LOOK_MANY numbers. */
+static bool tc_many_reals(double *out, int *n, const char *text, char *why)
+{
+    int words = 1;
+    for (const char *at = text; *at; at++)
+        words += *at == ',';
+    return words > TC_LOOK_MANY ? tc_too_many(why, TC_LOOK_MANY) : tc_parse_reals(out, n, TC_LOOK_MANY, text);
+}
+
 static bool tc_iso_parse(void *field, const char *text, char *why)
 {
     tc_look_options *out = field;
-    (void)why;
-    return tc_parse_reals(out->iso.value, &out->iso.n, TC_LOOK_MANY, text);
+    return tc_many_reals(out->iso.value, &out->iso.n, text, why);
 }
 
 static bool tc_iso_opacity_parse(void *field, const char *text, char *why)
 {
     tc_look_options *out = field;
-    return tc_parse_reals(out->iso_opacity.value, &out->iso_opacity.n, TC_LOOK_MANY, text) &&
+    return tc_many_reals(out->iso_opacity.value, &out->iso_opacity.n, text, why) &&
            tc_unit_range(out->iso_opacity.value, out->iso_opacity.n, why);
 }
 
@@ -336,70 +344,84 @@ void tc_look_options_defaults(tc_look_options *out)
     tc_shade_defaults(&out->shade);
 }
 
-static int tc_needs(tc_talk *talk, const char *option, const char *what)
+/* Does an option stand without one that it belongs to? A scene's own may, where that was put off. */
+static bool tc_stands_alone(const tc_given_list *given, const char *option, const char *const *of, size_t n)
 {
-    tc_talk_error(talk, "%s %s", option, what);
-    return TC_EXIT_USAGE;
+    bool off = false;
+    for (size_t i = 0; i < n; i++)
+        off = off || tc_is_put_off(given, of[i]);
+    return tc_is_given(given, option) && (!off || tc_is_of_line(given, option));
+}
+
+static int tc_needs(const tc_given_list *given, tc_talk *talk, const char *option, const char *with, const char *what)
+{
+    return tc_given_refuse(given, talk, option, with, "%s %s", option, what);
 }
 
 /* One for all, or one each. */
-static int tc_count_check(int n, int of, const char *option, const char *each, tc_talk *talk)
+static int tc_count_check(int n, int of, const char *option, const char *each, const tc_given_list *given,
+                          tc_talk *talk)
 {
     if (n <= 1 || n == of)
         return -1;
-    tc_talk_error(talk, "%s has %d, but there are %d of %s: give one for all, or one each", option, n, of, each);
-    return TC_EXIT_USAGE;
+    return tc_given_refuse(given, talk, option, each,
+                           "%s has %d, but there are %d of %s: give one for all, or one each", option, n, of, each);
 }
 
 int tc_look_options_check(const tc_look_options *o, const tc_given_list *given, tc_talk *talk)
 {
     static const char *const lit[] = {"--light",          "--ambient",   "--diffuse",        "--specular",
                                       "--specular-power", "--one-sided", "--shade-magnitude"};
+    static const char *const lights[] = {"--shade", "--surface"}, *const lines[] = {"--outline", "--wireframe"},
+                             *const surface[] = {"--surface"}, *const bar[] = {"--color-bar"},
+                             *const of_bar[] = {"--color-bar-place", "--color-bar-opacity"},
+                             *const of_iso[] = {"--iso-color", "--iso-opacity"};
     const bool surfaces = o->has_surface || o->geometry.n > 0;
     for (size_t i = 0; i < sizeof lit / sizeof *lit; i++)
-        if (tc_is_given(given, lit[i]) && o->gradient == TC_GRADIENT_NONE && !surfaces)
-            return tc_needs(talk, lit[i], "acts on what is lit: give --shade cell or vertex, --surface or --geometry");
-    if (o->has_color_range && !(o->color_range[0] < o->color_range[1])) {
-        tc_talk_error(talk, "--color-range takes LO,HI with LO below HI, not %g,%g", o->color_range[0],
-                      o->color_range[1]);
-        return TC_EXIT_USAGE;
-    }
+        if (o->gradient == TC_GRADIENT_NONE && !surfaces && tc_stands_alone(given, lit[i], lights, 2))
+            return tc_needs(given, talk, lit[i], NULL,
+                            "acts on what is lit: give --shade cell or vertex, --surface or --geometry");
+    if (o->has_color_range && !(o->color_range[0] < o->color_range[1]))
+        return tc_given_refuse(given, talk, "--color-range", NULL,
+                               "--color-range takes LO,HI with LO below HI, not %g,%g", o->color_range[0],
+                               o->color_range[1]);
     if (o->has_color_range && !o->color_field)
-        return tc_needs(talk, "--color-range", "is of --color-field: give that too, or --range in its place");
+        return tc_needs(given, talk, "--color-range", NULL,
+                        "is of --color-field: give that too, or --range in its place");
     if (o->categories && o->has_color_range)
-        return tc_needs(talk, "--color-range",
+        return tc_needs(given, talk, "--color-range", "--categories",
                         "lays out a colour map, while --categories colours value by value: "
                         "leave one out");
     if (o->categories && tc_is_given(given, "--color-map"))
-        return tc_needs(talk, "--color-map", "and --categories both give the colours: leave one out");
+        return tc_needs(given, talk, "--color-map", "--categories",
+                        "and --categories both give the colours: leave one out");
     for (int i = 0; o->categories && !o->color_field && i < 3; i++) {
         static const char *const other[] = {"--opacity", "--range", "--log"};
         if (tc_is_given(given, other[i]))
-            return tc_needs(talk, other[i],
+            return tc_needs(given, talk, other[i], "--categories",
                             "is of a colour map, while --categories gives each value its colour and "
                             "attenuation: leave one out, or give --color-field for the categories");
     }
-    if (tc_is_given(given, "--iso-color") && o->iso.n == 0)
-        return tc_needs(talk, "--iso-color", "is of --iso: give the values of surfaces");
-    if (tc_is_given(given, "--iso-opacity") && o->iso.n == 0)
-        return tc_needs(talk, "--iso-opacity", "is of --iso: give the values of surfaces");
+    for (int i = 0; o->iso.n == 0 && i < 2; i++)
+        if (tc_is_given(given, of_iso[i]))
+            return tc_needs(given, talk, of_iso[i], NULL, "is of --iso: give the values of surfaces");
     if (o->model == TC_MODEL_SURFACES && o->iso.n == 0 && !surfaces && !o->wireframe && !o->outline)
-        return tc_needs(talk, "--model isosurface", "shows surfaces alone: give --iso V[,V…], --surface or --geometry");
+        return tc_needs(given, talk, "--model", "--surface",
+                        "isosurface shows surfaces alone: give --iso V[,V…], --surface or --geometry");
     if (tc_is_given(given, "--geometry-color") && o->geometry.n == 0)
-        return tc_needs(talk, "--geometry-color", "is of --geometry: give a file, or --surface-color, --line-color");
-    if (tc_is_given(given, "--surface-color") && !o->has_surface)
-        return tc_needs(talk, "--surface-color", "is of --surface: give that too");
-    if (tc_is_given(given, "--line-color") && !o->outline && !o->wireframe)
-        return tc_needs(talk, "--line-color", "is of --outline and --wireframe: give one of them");
-    for (int i = 0; !o->color_bar && !tc_is_given(given, "--color-bar") && i < 2; i++) { /* it may have been put off */
-        static const char *const of_bar[] = {"--color-bar-place", "--color-bar-opacity"};
-        if (tc_is_given(given, of_bar[i]))
-            return tc_needs(talk, of_bar[i], "is of --color-bar: give that too");
-    }
-    int code = tc_count_check(o->iso_color.n, o->iso.n, "--iso-color", "--iso", talk);
+        return tc_needs(given, talk, "--geometry-color", NULL,
+                        "is of --geometry: give a file, or --surface-color, --line-color");
+    if (!o->has_surface && tc_stands_alone(given, "--surface-color", surface, 1))
+        return tc_needs(given, talk, "--surface-color", NULL, "is of --surface: give that too");
+    if (!o->outline && !o->wireframe && tc_stands_alone(given, "--line-color", lines, 2))
+        return tc_needs(given, talk, "--line-color", NULL, "is of --outline and --wireframe: give one of them");
+    for (int i = 0; !o->color_bar && i < 2; i++)
+        if (tc_stands_alone(given, of_bar[i], bar, 1))
+            return tc_needs(given, talk, of_bar[i], NULL, "is of --color-bar: give that too");
+    int code = tc_count_check(o->iso_color.n, o->iso.n, "--iso-color", "--iso", given, talk);
     if (code < 0)
-        code = tc_count_check(o->iso_opacity.n, o->iso.n, "--iso-opacity", "--iso", talk);
+        code = tc_count_check(o->iso_opacity.n, o->iso.n, "--iso-opacity", "--iso", given, talk);
     if (code < 0)
-        code = tc_count_check(o->geometry_color.n, o->geometry.n, "--geometry-color", "--geometry", talk);
+        code = tc_count_check(o->geometry_color.n, o->geometry.n, "--geometry-color", "--geometry", given, talk);
     return code;
 }

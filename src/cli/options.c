@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -185,7 +186,8 @@ static int tc_value_set(char *values, tc_talk *talk, const tc_option *option, co
 /* ------------------------------------------------------------------------------------------------- what was given */
 
 /* Notes an option that was set. */
-static int tc_given_add(tc_given_list *list, tc_talk *talk, const tc_option *option, const char *text)
+static int tc_given_add(tc_given_list *list, tc_talk *talk, const tc_option *option, const char *called,
+                        const char *text)
 {
     size_t at = list->n;
     for (size_t i = 0; i < list->n && !option->repeat; i++)
@@ -200,16 +202,53 @@ static int tc_given_add(tc_given_list *list, tc_talk *talk, const tc_option *opt
         list->item = more;
         list->n++;
     }
-    list->item[at] = (tc_given){option, text};
+    list->item[at] = (tc_given){option, text, called};
     return -1;
+}
+
+static const tc_given *tc_given_find(const tc_given_list *list, const char *name)
+{
+    for (size_t i = list->n; i-- > 0;)
+        if (!strcmp(list->item[i].option->name, name))
+            return &list->item[i];
+    return NULL;
+}
+
+bool tc_is_put_off(const tc_given_list *list, const char *name)
+{
+    const tc_given *one = tc_given_find(list, name);
+    return one && one->text && !strcmp(one->text, "off") &&
+           (one->option->kind == TC_OPTION_FLAG || one->option->kind == TC_OPTION_CHOICE || one->option->optional);
 }
 
 bool tc_is_given(const tc_given_list *list, const char *name)
 {
-    for (size_t i = 0; i < list->n; i++)
-        if (!strcmp(list->item[i].option->name, name))
-            return true;
-    return false;
+    return tc_given_find(list, name) && !tc_is_put_off(list, name);
+}
+
+bool tc_is_of_line(const tc_given_list *list, const char *name)
+{
+    const tc_given *one = tc_given_find(list, name);
+    return one && one->called == one->option->name;
+}
+
+const char *tc_scene_place(const tc_given_list *list, const char *name)
+{
+    const tc_given *one = tc_given_find(list, name);
+    return one && one->called != one->option->name ? one->called : NULL;
+}
+
+int tc_given_refuse(const tc_given_list *list, tc_talk *talk, const char *option, const char *with, const char *format,
+                    ...)
+{
+    char text[8192];
+    const char *place = tc_scene_place(list, option);
+    va_list more;
+    va_start(more, format);
+    vsnprintf(text, sizeof text, format, more);
+    va_end(more);
+    tc_talk_error(talk, "%s%s%s", place ? place : "", place ? ": " : "", text);
+    return !place || (with && tc_is_of_line(list, with)) ? TC_EXIT_USAGE : TC_EXIT_FAILED;
 }
 
 void tc_given_finish(tc_given_list *list)
@@ -273,12 +312,14 @@ int tc_option_set(void *values, tc_talk *talk, const tc_command *command, const 
     tc_option_find(&table, command, option->name, strlen(option->name), 0);
     char *base = (char *)values + tc_option_table(command, table).at;
     named.name = called;
-    if (option->kind == TC_OPTION_FLAG)
+    if (option->optional && text && !strcmp(text, "off"))
+        *(bool *)(base + option->has - 1) = false;
+    else if (option->kind == TC_OPTION_FLAG)
         *(bool *)(base + option->at) = strcmp(text, "off") != 0;
     else
         code = tc_value_set(base, talk, &named, text);
     if (code < 0 && command->given)
-        code = tc_given_add((tc_given_list *)((char *)values + command->given - 1), talk, option, text);
+        code = tc_given_add((tc_given_list *)((char *)values + command->given - 1), talk, option, called, text);
     return code;
 }
 

@@ -50,6 +50,7 @@ typedef struct tc_option {
 typedef struct tc_given {
     const tc_option *option;
     const char *text; /* borrowed; "on" or "off" of a flag; NULL: an optional value was left out */
+    const char *called; /* borrowed; where: the option's name, or the place in a scene */
 } tc_given;
 
 /* What was given, in order; of an option that does not repeat the last. tc_given_finish ends it. */
@@ -82,10 +83,22 @@ int tc_options_parse(void *values, const char **argument, int *n_argument, tc_ta
 /* One option by its whole name, of the command's own tables; NULL: there is none. */
 const tc_option *tc_command_option(const tc_command *command, const char *name);
 /* Sets an option of the command's own tables as if it had been given with that text; called says how errors name it.
- * text NULL: an optional value is left out; "on" and "off" set a flag. The same codes. */
+ * text NULL: an optional value is left out; "on" and "off" set a flag, "off" takes an optional value away. The same
+ * codes. */
 int tc_option_set(void *values, tc_talk *talk, const tc_command *command, const tc_option *option, const char *called,
                   const char *text);
+/* Was it given, and not off? */
 bool tc_is_given(const tc_given_list *list, const char *name);
+/* Was it put off: a flag, a choice or an optional value? */
+bool tc_is_put_off(const tc_given_list *list, const char *name);
+/* Was it given on the command line, whatever its value? */
+bool tc_is_of_line(const tc_given_list *list, const char *name);
+/* Its place in a scene; NULL: it is not from there. */
+const char *tc_scene_place(const tc_given_list *list, const char *name);
+/* Prints why an option cannot be, behind its place where a scene has it. `with`: another that it does not go with, or
+ * NULL. The exit code: a wrong command line, unless the scene alone is at fault. */
+int tc_given_refuse(const tc_given_list *list, tc_talk *talk, const char *option, const char *with, const char *format,
+                    ...) TC_CLI_PRINTF(5, 6);
 void tc_given_finish(tc_given_list *list);
 
 void tc_command_help(const tc_command *command);

@@ -273,6 +273,14 @@ static int tc_output_kind_check(const char *path, tc_talk *talk)
     return TC_EXIT_USAGE;
 }
 
+/* Ends what a scene was to be blamed for: its wrong value is failed work. Gives the exit code. */
+static int tc_blame_end(int code, tc_talk *talk)
+{
+    const bool failed = talk->from && code == TC_EXIT_USAGE;
+    talk->from = NULL;
+    return failed ? TC_EXIT_FAILED : code;
+}
+
 static bool tc_is_output(const char *option)
 {
     return !strcmp(option, "--output") || !strcmp(option, "--error-image") || !strcmp(option, "--stats");
@@ -293,10 +301,11 @@ bool tc_same_file(const char *a, const char *b)
     return !strcmp(a, b);
 }
 
-static int tc_refuse_output(const char *option, const char *path, const char *read, tc_talk *talk)
+static int tc_refuse_output(const tc_given_list *given, const char *option, const char *path, const char *read,
+                            tc_talk *talk)
 {
-    tc_talk_error(talk, "%s is the file of %s and would be written over: give %s another name", path, read, option);
-    return TC_EXIT_USAGE;
+    return tc_given_refuse(given, talk, option, read,
+                           "%s is the file of %s and would be written over: give %s another name", path, read, option);
 }
 
 /* Is none of the files that other options name the one to be written? */
@@ -310,9 +319,8 @@ static int tc_output_read_check(const char *option, const char *path, const tc_r
             if (!key[k].option || strcmp(key[k].option, given->option->name) != 0)
                 continue;
             const bool other = key[k].path == TC_PATH_FILE && !tc_is_output(key[k].option);
-            if ((other || (key[k].path == TC_PATH_MAYBE && tc_is_file(given->text))) &&
-                tc_same_file(given->text, path))
-                return tc_refuse_output(option, path, key[k].option, talk);
+            if ((other || (key[k].path == TC_PATH_MAYBE && tc_names_file(given->text))) && tc_same_file(given->text, path))
+                return tc_refuse_output(&out->given, option, path, key[k].option, talk);
         }
     }
     for (int i = 0; i < out->look.geometry.n; i++) {
@@ -320,12 +328,13 @@ static int tc_output_read_check(const char *option, const char *path, const tc_r
         const bool same = read && tc_same_file(read, path);
         free(read);
         if (same)
-            return tc_refuse_output(option, path, "--geometry", talk);
+            return tc_refuse_output(&out->given, option, path, "--geometry", talk);
     }
     return -1;
 }
 
-/* The files to be written: each its own, none the input or another that is read, pictures with a known extension, in folders that are there. */
+/* The files to be written: each its own, none the input or another that is read, pictures with a known extension, in
+ * folders that are there. */
 static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
 {
     const struct {
@@ -334,51 +343,49 @@ static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
     } file[] = {
         {"--output", out->output, true}, {"--error-image", out->error_image, true}, {"--stats", out->stats, false}};
     enum { N = sizeof file / sizeof *file };
+    talk->from = NULL; /* each says by itself where it is from */
     for (int i = 0; i < N; i++)
         for (int j = 0; j < i && file[i].path; j++) {
             if (!file[j].path)
                 continue;
-            if (!strcmp(file[i].path, "-") && !strcmp(file[j].path, "-")) {
-                tc_talk_error(talk, "%s - and %s - both want stdout: give one of them a file", file[j].option,
-                              file[i].option);
-                return TC_EXIT_USAGE;
-            }
-            if (tc_same_file(file[i].path, file[j].path)) {
-                tc_talk_error(talk, "%s and %s are one file, %s: give each its own", file[j].option, file[i].option,
-                              file[j].path);
-                return TC_EXIT_USAGE;
-            }
+            if (!strcmp(file[i].path, "-") && !strcmp(file[j].path, "-"))
+                return tc_given_refuse(&out->given, talk, file[i].option, file[j].option,
+                                       "%s - and %s - both want stdout: give one of them a file", file[j].option,
+                                       file[i].option);
+            if (tc_same_file(file[i].path, file[j].path))
+                return tc_given_refuse(&out->given, talk, file[i].option, file[j].option,
+                                       "%s and %s are one file, %s: give each its own", file[j].option, file[i].option,
+                                       file[j].path);
         }
     for (int i = 0; i < N && out->steps.there; i++) {
         char name[8192], why[256];
         if (!file[i].path || !file[i].picture)
             continue;
-        if (!strcmp(file[i].path, "-")) {
-            tc_talk_error(talk, "%s - takes one picture, --step FROM:TO makes several: give a name", file[i].option);
-            return TC_EXIT_USAGE;
-        }
-        if (!tc_step_name(name, sizeof name, file[i].path, 0, 0, why, sizeof why)) {
-            tc_talk_error(talk, "%s %s: %s", file[i].option, file[i].path, why);
-            return TC_EXIT_USAGE;
-        }
+        if (!strcmp(file[i].path, "-"))
+            return tc_given_refuse(&out->given, talk, file[i].option, "--step",
+                                   "%s - takes one picture, --step FROM:TO makes several: give a name", file[i].option);
+        if (!tc_step_name(name, sizeof name, file[i].path, 0, 0, why, sizeof why))
+            return tc_given_refuse(&out->given, talk, file[i].option, NULL, "%s %s: %s", file[i].option, file[i].path,
+                                   why);
     }
     for (int i = 0; i < 2 * N; i++) {
         const char *input = i < N ? out->input : out->scene_path, *path = file[i % N].path;
-        if (input && path && tc_same_file(input, path)) {
-            tc_talk_error(talk, "%s is the input and would be written over: give %s another name", input,
-                          file[i % N].option);
-            return TC_EXIT_USAGE;
-        }
+        if (input && path && tc_same_file(input, path))
+            return tc_given_refuse(&out->given, talk, file[i % N].option, NULL,
+                                   "%s is the input and would be written over: give %s another name", input,
+                                   file[i % N].option);
     }
     int code = -1;
     for (int i = 0; i < N && code < 0; i++)
         if (file[i].path)
             code = tc_output_read_check(file[i].option, file[i].path, out, talk);
     for (int i = 0; i < N && code < 0; i++) {
+        talk->from = tc_scene_place(&out->given, file[i].option);
         if (file[i].path && file[i].picture)
             code = tc_output_kind_check(file[i].path, talk);
         if (code < 0 && file[i].path && !(out->steps.there && file[i].picture)) /* names of steps: render_sequence.c */
             code = tc_output_check(file[i].path, talk);
+        code = tc_blame_end(code, talk);
     }
     return code;
 }
@@ -386,64 +393,58 @@ static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
 static int tc_render_check(const tc_render_command *out, tc_talk *talk)
 {
     static const double zero[3];
-    int code = tc_input_check(&out->source, talk);
+    const tc_given_list *given = &out->given;
+    if (!tc_is_of_line(given, "--cell-data") && !tc_is_of_line(given, "--point-data"))
+        talk->from = out->scene_path;
+    int code = tc_blame_end(tc_input_check(&out->source, talk), talk);
     if (code >= 0)
         return code;
-    if (out->has_range && !(out->range[0] < out->range[1])) {
-        tc_talk_error(talk, "--range takes LO,HI with LO below HI, not %g,%g", out->range[0], out->range[1]);
-        return TC_EXIT_USAGE;
-    }
+    if (out->has_range && !(out->range[0] < out->range[1]))
+        return tc_given_refuse(given, talk, "--range", NULL, "--range takes LO,HI with LO below HI, not %g,%g",
+                               out->range[0], out->range[1]);
     const double *clip = out->clipping_range;
-    if (out->has_clipping_range && !(clip[0] >= 0 && clip[0] < clip[1])) {
-        tc_talk_error(talk, "--clipping-range takes NEAR,FAR with NEAR not below 0 and FAR beyond NEAR, not %g,%g", clip[0],
-                      clip[1]);
-        return TC_EXIT_USAGE;
+    if (out->has_clipping_range && !(clip[0] >= 0 && clip[0] < clip[1]))
+        return tc_given_refuse(given, talk, "--clipping-range", NULL,
+                               "--clipping-range takes NEAR,FAR with NEAR not below 0 and FAR beyond NEAR, not %g,%g",
+                               clip[0], clip[1]);
+    if (out->has_view_up && tc_equal3(out->view_up, zero))
+        return tc_given_refuse(given, talk, "--view-up", NULL, "--view-up takes a direction, not 0,0,0");
+    if (out->has_position && out->has_focal_point && tc_equal3(out->position, out->focal_point))
+        return tc_given_refuse(
+            given, talk, "--camera-position", "--focal-point",
+            "--camera-position and --focal-point are the same point, so there is no direction to look");
+    if (out->stepper == TC_STEPPER_PLANES && !strcmp(out->driver, "reference"))
+        return tc_given_refuse(
+            given, talk, "--stepper", "--driver",
+            "--stepper planes walks from cell to cell, which --driver reference does not: leave one out");
+    if (out->stepper == TC_STEPPER_PLANES && tc_choice_asked(out))
+        return tc_given_refuse(given, talk, "--stepper", out->error > 0 ? "--error" : "--frame-time",
+                               "--stepper planes loses rays, so no error can be promised: leave out %s",
+                               out->error > 0 ? "--error" : "--frame-time");
+    if (out->stepper == TC_STEPPER_PLANES && out->audit)
+        return tc_given_refuse(
+            given, talk, "--audit", "--stepper",
+            "--audit counts faces that hold the ray, which --stepper planes does not ask: leave one out");
+    if (out->audit && out->samples != 1)
+        return tc_given_refuse(given, talk, "--audit", "--samples",
+                               "--audit is of one ray a pixel: leave it or --samples out");
+    if (out->audit && !strcmp(out->driver, "reference"))
+        return tc_given_refuse(
+            given, talk, "--audit", "--driver",
+            "--audit checks the walk from cell to cell, which --driver reference does not do: leave one out");
+    const bool reference = !strcmp(out->driver, "reference");
+    const char *judge = reference          ? "--driver"
+                        : !out->has_verify ? "--error"
+                        : out->error_image ? "--error-image"
+                                           : "--verify";
+    if ((out->look.outline || out->look.wireframe) && (reference || out->has_verify || out->error > 0)) {
+        const char *lines = out->look.outline ? "--outline" : "--wireframe";
+        return tc_given_refuse(given, talk, judge, lines, "%s%s draws no lines: leave %s out, or that option", judge,
+                               reference ? " reference" : ", the reference that is compared with,", lines);
     }
-    if (out->has_view_up && tc_equal3(out->view_up, zero)) {
-        tc_talk_error(talk, "--view-up takes a direction, not 0,0,0");
-        return TC_EXIT_USAGE;
-    }
-    if (out->has_position && out->has_focal_point && tc_equal3(out->position, out->focal_point)) {
-        tc_talk_error(talk, "--camera-position and --focal-point are the same point, so there is no direction to look");
-        return TC_EXIT_USAGE;
-    }
-    if (out->stepper == TC_STEPPER_PLANES && !strcmp(out->driver, "reference")) {
-        tc_talk_error(talk,
-                      "--stepper planes walks from cell to cell, which --driver reference does not: leave one out");
-        return TC_EXIT_USAGE;
-    }
-    if (out->stepper == TC_STEPPER_PLANES && tc_choice_asked(out)) {
-        tc_talk_error(talk, "--stepper planes loses rays, so no error can be promised: leave out %s",
-                      out->error > 0 ? "--error" : "--frame-time");
-        return TC_EXIT_USAGE;
-    }
-    if (out->stepper == TC_STEPPER_PLANES && out->audit) {
-        tc_talk_error(talk,
-                      "--audit counts faces that hold the ray, which --stepper planes does not ask: leave one out");
-        return TC_EXIT_USAGE;
-    }
-    if (out->audit && out->samples != 1) {
-        tc_talk_error(talk, "--audit is of one ray a pixel: leave it or --samples out");
-        return TC_EXIT_USAGE;
-    }
-    if (out->audit && !strcmp(out->driver, "reference")) {
-        tc_talk_error(talk,
-                      "--audit checks the walk from cell to cell, which --driver reference does not do: leave one out");
-        return TC_EXIT_USAGE;
-    }
-    const char *judge = !strcmp(out->driver, "reference") ? "--driver reference"
-                        : out->has_verify                 ? "--verify, the reference that is compared with,"
-                        : out->error > 0                  ? "--error, the reference that is compared with,"
-                                                          : NULL;
-    if ((out->look.outline || out->look.wireframe) && judge) {
-        tc_talk_error(talk, "%s draws no lines: leave %s out, or that option", judge,
-                      out->look.outline ? "--outline" : "--wireframe");
-        return TC_EXIT_USAGE;
-    }
-    if (out->preset && !out->color_map) {
-        tc_talk_error(talk, "--preset names a map of a file: give the file with --color-map");
-        return TC_EXIT_USAGE;
-    }
+    if (out->preset && !out->color_map)
+        return tc_given_refuse(given, talk, "--preset", NULL,
+                               "--preset names a map of a file: give the file with --color-map");
     return tc_look_options_check(&out->look, &out->given, talk);
 }
 
@@ -470,15 +471,19 @@ static void tc_render_command_defaults(tc_render_command *out)
 static bool tc_is_overridden(const tc_render_command *line, const tc_scene *scene, const char *name)
 {
     static const char *const follows[][2] = {
-        {"--field", "--cell-data"},       {"--field", "--point-data"},      {"--field", "--range"},
-        {"--cell-data", "--point-data"},  {"--point-data", "--cell-data"},  {"--color-field", "--color-range"},
-        {"--color-map", "--preset"},      {"--color-map", "--categories"},  {"--categories", "--color-map"},
-        {"--categories", "--preset"},     {"--categories", "--color-range"}, {"--iso", "--iso-color"},
-        {"--iso", "--iso-opacity"},       {"--geometry", "--geometry-color"},
+        {"--field", "--cell-data"},      {"--field", "--point-data"},        {"--field", "--range"},
+        {"--cell-data", "--point-data"}, {"--point-data", "--cell-data"},    {"--color-field", "--color-range"},
+        {"--color-map", "--preset"},     {"--color-map", "--categories"},    {"--categories", "--color-map"},
+        {"--categories", "--preset"},    {"--categories", "--color-range"},  {"--iso", "--iso-color"},
+        {"--iso", "--iso-opacity"},      {"--geometry", "--geometry-color"},
     };
     static const char *const of_map[] = {"--opacity", "--range", "--log"};
     if (tc_is_given(&line->given, name))
         return strcmp(name, "--time") != 0 || line->source.has_time;
+    if (!strcmp(name, "--parallel-scale") && tc_is_put_off(&line->given, "--parallel"))
+        return true;
+    if ((!strcmp(name, "--parallel-scale") || !strcmp(name, "--parallel")) && tc_is_given(&line->given, "--view-angle"))
+        return true;
     for (size_t i = 0; i < sizeof follows / sizeof *follows; i++)
         if (!strcmp(name, follows[i][1]) && tc_is_given(&line->given, follows[i][0]))
             return true;
@@ -534,9 +539,21 @@ static void tc_default_output_make(tc_render_command *out)
     out->output = out->default_output;
 }
 
+/* Errors that come later are the scene's, where the command line changes none of its values but those of `output`. */
+static void tc_scene_blame(const tc_render_command *out, tc_talk *talk)
+{
+    size_t n_key;
+    const tc_scene_key *key = tc_scene_keys(&n_key);
+    talk->from = out->scene_path;
+    for (size_t k = 0; k < n_key; k++)
+        if (key[k].kept && strcmp(key[k].section, "output") != 0 && tc_is_of_line(&out->given, key[k].option))
+            talk->from = NULL;
+}
+
 int tc_picture_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
 {
     int n_argument;
+    talk->from = NULL;
     tc_render_command_defaults(out);
     int code = tc_options_parse(out, &out->input, &n_argument, talk, command, argc, argv);
     if (code < 0 && tc_input_is_scene(out->input))
@@ -553,7 +570,10 @@ int tc_picture_command_read(tc_render_command *out, tc_talk *talk, const tc_comm
     if (out->look.model == TC_MODEL_EMISSION && !tc_is_given(&out->given, "--background"))
         out->background = (tc_background){.there = true, .rgba = {0, 0, 0, 1}}; /* light alone is seen on black */
     out->source.keep_reader = out->look.color_field || out->look.select.n > 0 || out->look.blocks.n > 0;
-    return tc_render_check(out, talk);
+    code = tc_render_check(out, talk);
+    if (code < 0)
+        tc_scene_blame(out, talk);
+    return code;
 }
 
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
@@ -563,7 +583,10 @@ int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_comma
         return code;
     if (!out->output)
         tc_default_output_make(out);
-    return tc_outputs_check(out, talk);
+    code = tc_outputs_check(out, talk);
+    if (code < 0)
+        tc_scene_blame(out, talk);
+    return code;
 }
 
 void tc_render_command_finish(tc_render_command *command)

@@ -99,7 +99,7 @@ static const tc_scene_key tc_key[] = {
     {"output", "file", "--output", TC_PATH_FILE, false},
     {"output", "size", "--size", TC_PATH_NONE, true},
     {"output", "background", "--background", TC_PATH_NONE, true},
-    {"output", "verify", "--verify", TC_PATH_NONE, true},
+    {"output", "verify", "--verify", TC_PATH_NONE, false},
     {"output", "error_image", "--error-image", TC_PATH_FILE, false},
     {"output", "repeat", "--repeat", TC_PATH_NONE, false},
     {"output", "count", "--count", TC_PATH_NONE, false},
@@ -223,6 +223,8 @@ static bool tc_put_list(FILE *stream, const json_t *array, const tc_option *opti
     const json_t *first = json_array_get(array, 0);
     if (!strcmp(option->name, "--opacity"))
         return tc_put_array(stream, array, ',', ':');
+    if (!strcmp(option->name, "--geometry"))
+        return tc_put_array(stream, array, ',', 0);
     if (!strcmp(option->name, "--size"))
         return tc_put_array(stream, array, 'x', 0);
     if (!strcmp(option->name, "--blocks") || !first || json_is_number(first))
@@ -280,7 +282,7 @@ static const char *tc_type_name(const json_t *value)
     case JSON_OBJECT:
         return "an object";
     case JSON_ARRAY:
-        return "a list";
+        return json_array_size(value) > 0 ? "a list" : "an empty list";
     case JSON_STRING:
         return "a text";
     case JSON_INTEGER:
@@ -304,10 +306,30 @@ static char *tc_path_from(const char *folder, const char *path)
     return asprintf(&text, "%s/%s", folder, path) < 0 ? NULL : text;
 }
 
-bool tc_is_file(const char *path)
+static bool tc_is_file(const char *path)
 {
     struct stat info;
     return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+/* Is it a built-in map, or a kind of opacity? These come before files of their name. */
+static bool tc_is_name(const char *text)
+{
+    static const char *const curve[] = {"linear", "geom", "sigmoid"};
+    size_t n;
+    const char *const *map = tc_transfer_builtin(&n);
+    for (size_t i = 0; i < n; i++)
+        if (!strcasecmp(map[i], text))
+            return true;
+    for (size_t i = 0; i < sizeof curve / sizeof *curve; i++)
+        if (!strcasecmp(curve[i], text))
+            return true;
+    return false;
+}
+
+bool tc_names_file(const char *text)
+{
+    return !tc_is_name(text) && tc_is_file(text);
 }
 
 /* The text of an option, its path led from the scene's folder; takes text over. */
@@ -315,10 +337,8 @@ static char *tc_path_lead(const tc_scene_reader *r, tc_scene_path kind, char *te
 {
     if (!text || kind == TC_PATH_NONE || (kind == TC_PATH_FILE && !strcmp(text, "-")))
         return text;
-    if (kind == TC_PATH_MAYBE && !strpbrk(text, "./")) /* a name: "linear", "Viridis" */
-        return text;
     char *led = tc_path_from(r->folder, text);
-    if (kind == TC_PATH_MAYBE && led && access(led, F_OK) != 0) {
+    if (kind == TC_PATH_MAYBE && led && (tc_is_name(text) || !tc_is_file(led))) {
         free(led);
         return text;
     }
@@ -395,20 +415,21 @@ static int tc_option_take(const tc_scene_reader *r, const tc_scene_key *k, const
     if (!tc_type_fits(option, value))
         return tc_refuse_type(r, k->section, k->key, tc_type_wanted(option), value);
     const json_t *first = json_is_array(value) ? json_array_get(value, 0) : NULL;
-    if (option->repeat && json_is_string(first)) { /* each its own, whatever is in it */
+    if (option->repeat &&
+        json_is_string(json_is_array(first) ? json_array_get(first, 0) : first)) { /* each its own, whatever is in it */
         int code = -1;
         for (size_t i = 0; i < json_array_size(value) && code < 0; i++) {
             const json_t *one = json_array_get(value, i);
-            char *text = json_is_string(one) ? strdup(json_string_value(one)) : tc_value_text(one, option);
+            char *text = json_is_string(one)  ? strdup(json_string_value(one))
+                         : json_is_array(one) ? tc_value_text(one, option)
+                                              : NULL;
             if (!text)
                 return tc_refuse_type(r, k->section, k->key, "a text, or a list of texts alone", one);
             code = tc_item_add(r, option, tc_called(r, k->section, k->key), tc_path_lead(r, k->path, text));
         }
         return code;
     }
-    const bool without = option->optional && json_is_boolean(value);
-    if (without && json_is_false(value))
-        return -1;
+    const bool without = option->optional && json_is_true(value);
     char *text = without ? NULL : tc_value_text(value, option);
     if (!text && !without)
         return tc_refuse_type(r, k->section, k->key, tc_type_wanted(option), value);

@@ -47,8 +47,8 @@ int tc_scene_parse(tc_scene *out, const char *text, const char *name, const char
 int tc_scene_read(tc_scene *out, const char *path, const tc_command *command, tc_talk *talk);
 void tc_scene_finish(tc_scene *scene);
 
-/* Is there a file of that name, and no folder? */
-bool tc_is_file(const char *path);
+/* Of TC_PATH_MAYBE: is it a file that is there, and not the name of a built-in map or of a kind of opacity? */
+bool tc_names_file(const char *text);
 
 /* Is this INPUT a scene file or a picture, by its extension? */
 bool tc_input_is_scene(const char *input);

@@ -74,9 +74,11 @@ static json_t *tc_given_json(const tc_given *given, tc_scene_path path)
         return json_true();
     if (option->kind == TC_OPTION_FLAG)
         return json_boolean(strcmp(text, "off") != 0);
+    if (option->optional && !strcmp(text, "off"))
+        return json_false();
     if (path == TC_PATH_OPACITY)
         return tc_whole_path_of(text);
-    if (path == TC_PATH_FILE || (path == TC_PATH_MAYBE && strpbrk(text, "./"))) /* else a name: "linear", "Viridis" */
+    if (path == TC_PATH_FILE || (path == TC_PATH_MAYBE && tc_names_file(text))) /* else a name: "linear", "Viridis" */
         return tc_whole_path(text);
     if (option->kind == TC_OPTION_U64 && strlen(text) > 15) /* more digits than a double has */
         return tc_text(text);

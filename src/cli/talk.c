@@ -40,6 +40,8 @@ static void tc_message_print(tc_talk *talk, const char *kind, const char *colour
     }
     if (*talk->about)
         fprintf(stderr, "%s: ", talk->about);
+    if (talk->from && kind && !strcmp(kind, "error"))
+        fprintf(stderr, "%s: ", talk->from);
     vfprintf(stderr, format, list);
     fputc('\n', stderr);
 }
@@ -131,5 +133,5 @@ int tc_talk_finish(tc_talk *talk, int code)
         tc_talk_error(talk, "stdout could not be written: %s", strerror(errno));
         return TC_EXIT_FAILED;
     }
-    return code;
+    return talk->from && code == TC_EXIT_USAGE ? TC_EXIT_FAILED : code;
 }

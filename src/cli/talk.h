@@ -22,6 +22,8 @@ typedef struct tc_talk {
     double line_at_s; /* when it was last drawn */
     double start_s;   /* when the program began */
     char about[24];   /* stands before each message: "step 3"; "": nothing does */
+    const char *from; /* stands before each error: the scene that the values come from, which makes a wrong value failed
+                       * work; NULL: the command line */
     tc_log log;       /* to hand to the library; its user is this struct */
 } tc_talk;
 

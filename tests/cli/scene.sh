@@ -116,6 +116,103 @@ wrong "wrong.json:1: a scene is an object" '[1]'
 wrong "nowhere.vtu cannot be read" '{"data": "nowhere.vtu"}'
 wrong "wrong.json:2: this is no JSON: duplicate object key" '{"data": "synth:ball",
 "data": "synth:ball"}'
+wrong "wrong.json:1: effects.iso takes a text, a number or a list of them, not an empty list" '{"data": "synth:ball", "effects": {"iso": []}}'
 run 1 render gone.json
 says "gone.json cannot be read"
+
+# What is found wrong only later is told by its place, too, where the command line does not have its part in it.
+wrong "wrong.json:2: transfer_function.range: --range takes LO,HI with LO below HI, not 2,1" '{"data": "synth:ball", "transfer_function": {
+"range": [2, 1]}}'
+wrong "wrong.json:2: effects.iso_color: --iso-color is of --iso" '{"data": "synth:ball", "effects": {
+"iso_color": [1, 0, 0]}}'
+wrong "wrong.json:1: effects.iso_color: --iso-color has 3, but there are 2 of --iso" \
+    '{"data": "synth:ball", "effects": {"iso": [0, 1], "iso_color": [[1, 0, 0], [0, 0, 0], [1, 1, 1]]}}'
+wrong "wrong.json:1: effects.color_bar_place: --color-bar-place is of --color-bar" '{"data": "synth:ball", "effects": {"color_bar_place": "left"}}'
+wrong "wrong.json: --cell-data" '{"data": "data/disk.vtu", "cell_data": true, "point_data": true}'
+wrong 'wrong.json: there is no colour map "Virdis"' '{"data": "synth:ball", "transfer_function": {"color_map": "Virdis"}}'
+wrong "wrong.json: --categories" '{"data": "data/disk.vtu", "effects": {"categories": "none.txt"}}'
+wrong "wrong.json: data/disk.vtu: 'Material' is cell data" '{"data": "data/disk.vtu", "field": "Material", "effects": {"iso": 1}}'
+wrong "at most 64 of them" "{\"data\": \"synth:ball\", \"effects\": {\"iso\": [0$(printf ',%s' $(seq 64))]}}"
+run 2 render wrong.json --iso "0$(printf ',%s' $(seq 64))"
+says "at most 64 of them"
+printf '{"data": "data/disk.vtu", "output": {"file": "x.gif"}}' >wrong.json
+run 1 render wrong.json
+says "wrong.json:1: output.file: x.gif: the extension tells the format"
+run 2 render wrong.json -o y.gif
+says "error: y.gif: the extension"
+run 2 render wrong.json -o no.png --color-map Virdis
+says 'error: there is no colour map "Virdis"'
+run 2 render wrong.json -o no.png --iso-color 1,0,0
+says "error: --iso-color is of --iso"
+run 0 render wrong.json $small --driver reference -o good.png
+
+# What is off is as if it were not there, in a scene and on the command line; with it goes what belongs to it.
+off() { # off SCENE LESS OPTION…: the scene with the options is the picture of LESS
+    printf '{"data": "data/disk.vtu", "field": "Temp", "output": {"size": [80, 60]}, "method": {"driver": "pingpong"}, "effects": {%s}}' "$1" >more.json
+    printf '{"data": "data/disk.vtu", "field": "Temp", "output": {"size": [80, 60]}, "method": {"driver": "pingpong"}, "effects": {%s}}' "$2" >less.json
+    shift 2
+    run 0 render less.json --quiet -o less.png
+    run 0 render more.json --quiet "$@" -o off.png
+    same_pixels less.png off.png
+    run 0 render off.png --quiet -o again.png
+    same_pixels off.png again.png
+}
+off '"one_sided": false, "color_bar_opacity": false, "axes": false, "surface": false, "surface_color": [1, 0, 0]' ''
+off '"color_bar": false, "color_bar_place": "left", "outline": false, "line_color": [1, 0, 0], "shade": "off", "ambient": 0.5' ''
+run 0 render more.json --quiet --color-bar --outline --shade cell --size 320x240 --zoom 1 -o more.png
+run 0 render more.png --quiet --color-bar=off --outline=off --shade off --size 80x60 -o less.png
+same_pixels off.png less.png
+off '"surface": 0.5, "surface_color": [1, 0, 0], "specular": 0.9' '' --surface=off
+run 0 render data/disk.vtu --field Temp --size 80x60 --driver pingpong --quiet --one-sided=off --log=off -o off.png
+same_pixels off.png less.png
+run 2 render more.json --color-bar=off --color-bar-place left
+says "error: --color-bar-place is of --color-bar"
+run 2 render data/disk.vtu --surface=off --surface-color 1,0,0
+says "--surface-color is of --surface"
+
+# The view of the command line, whatever projection the picture has.
+view="--size 40x30 --driver reference --quiet"
+run 0 render data/disk.vtu $view --camera-position 4,3,8 --focal-point 1,0.5,0.5 --parallel-scale 1 -o first.png
+run 0 render data/disk.vtu $view --camera-position 4,3,8 --focal-point 1,0.5,0.5 --view-angle 20 -o angle.png
+run 0 render data/disk.vtu $view --camera-position 4,3,8 --focal-point 1,0.5,0.5 -o wide.png
+run 0 render first.png --quiet --parallel=off --view-angle 20 -o a.png
+same_pixels angle.png a.png
+run 0 render first.png --quiet --view-angle 20 -o a.png
+same_pixels angle.png a.png
+run 0 render first.png --quiet --parallel=off -o a.png
+same_pixels wide.png a.png
+other_pixels first.png a.png
+run 0 render first.png --quiet --parallel-scale 2 --view-angle 20 -o a.png
+run 0 render a.png --quiet --parallel-scale 1 -o a.png.png
+same_pixels first.png a.png.png
+
+# A measurement is no part of a picture.
+run 0 render data/disk.vtu $small --verify 5 -o first.png
+scene_of first.png | grep -q verify && fail "--verify is in the scene of its picture"
+run 0 render first.png --quiet --outline -o a.png
+
+# A file needs no dot in its name; a built-in map stands before it.
+printf '0:1,0,0\n1:0,0,1\n' >data/cats
+cp data/cats data/viridis
+printf '{"data": "disk.vtu", "field": "Temp", "effects": {"categories": "cats"}}' >data/named.json
+run 0 render data/named.json $small -o first.png
+mkdir elsewhere
+(cd elsewhere && "$TETCAST" render ../first.png --quiet -o again.png) || fail "a picture loses a file without a dot"
+same_pixels first.png elsewhere/again.png
+printf '{"data": "disk.vtu", "transfer_function": {"color_map": "viridis"}}' >data/named.json
+run 0 render data/named.json $small -o first.png
+
+# Geometry with an opacity, as lists.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >data/x.obj
+printf 'v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n' >data/y.obj
+for geometry in '[["x.obj", 0.5], ["y.obj", 0.3]]' '["x.obj,0.5", ["y.obj", 0.3]]' '["x.obj,0.5", "y.obj,0.3"]'; do
+    printf '{"data": "disk.vtu", "effects": {"geometry": %s}}' "$geometry" >data/named.json
+    run 0 render data/named.json --size 80x60 --driver reference --quiet -o a.png
+    [ ! -f geometry.png ] || same_pixels geometry.png a.png
+    mv a.png geometry.png
+done
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n' >lines.obj
+run 2 render data/disk.vtu --size 8x8 --geometry lines.obj --verify 5 -o no.png
+says "lines.obj has 2 lines, and the reference that --verify compares with draws none: leave out --verify"
+absent no.png
 finish

@@ -129,7 +129,7 @@ static void values_become_what_a_command_line_would_say(void **state)
     check_text("{\"effects\": {\"categories\": [\"1:1,0,0\", \"2:0,1,0\"]}}", "--categories", "1:1,0,0;2:0,1,0");
     check_text("{\"effects\": {\"blocks\": [\"1:3\", 7]}}", "--blocks", "1:3,7");
     check_text("{\"effects\": {\"surface\": true}}", "--surface", "(none)");
-    check_text("{\"effects\": {\"surface\": false}}", "--surface", "");
+    check_text("{\"effects\": {\"surface\": false}}", "--surface", "off");
     check_text("{\"effects\": {\"surface\": 0.5}}", "--surface", "0.5");
     check_text("{\"method\": {\"samples\": 16}}", "--samples", "16");
     check_text("{\"step\": -1}", "--step", "-1");
