@@ -224,7 +224,7 @@ void tc_effects_nan_color(double color[4], const tc_effects *effects)
 {
     for (int k = 0; k < effects->n; k++) {
         tc_knot knot = {0, color[0], color[1], color[2], color[3]};
-        if (!effects->row[k]->knot)
+        if (!effects->row[k]->knot || !effects->row[k]->model)
             continue;
         effects->row[k]->knot(&knot, &effects->scene);
         color[0] = knot.r;

@@ -6,15 +6,19 @@
 #include "mesh/field.h"
 #include "transfer_functions/pieces.h"
 #include "transfer_functions/place.h"
+#include "transfer_functions/thin.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+static const double THIN = 4.9e-4; /* of a colour: a quarter of 1/510 */
+
 typedef struct colors {
     tc_texture_buffer values, pieces;
     uint64_t field, function; /* serials of what is there; 0: nothing */
+    tc_integrator integrator; /* that was asked for */
     int n_piece;
     double map[2];
 } colors;
@@ -45,6 +49,14 @@ static bool nonfinite(const tc_effect_scene *scene)
     return !scene->look->color_field->finite;
 }
 
+/* Of the picture's own function the attenuation alone is looked at: knots of its colours would be crossed for nothing.
+ */
+static void knot(tc_knot *knot, const tc_effect_scene *scene)
+{
+    (void)scene;
+    knot->r = knot->g = knot->b = 0;
+}
+
 static tc_status upload_values(colors *c, const tc_field *field, const tc_gl *gl, tc_error *err)
 {
     float *value = tc_alloc(field->n, sizeof *value);
@@ -58,7 +70,27 @@ static tc_status upload_values(colors *c, const tc_field *field, const tc_gl *gl
     return status;
 }
 
-static tc_status upload_function(colors *c, const tc_field *field, const tc_transfer *tf, const tc_gl *gl, tc_error *err)
+/* The function with fewer knots, where not all of them were asked for; its attenuation is not looked at. */
+static tc_status thin_function(tc_transfer **out, const tc_effect_scene *scene, tc_error *err)
+{
+    const tc_transfer *tf = scene->look->color_function;
+    tc_knot *knots = tc_alloc(tf->n, sizeof *knots);
+    tc_transfer *clear = NULL;
+    if (!knots)
+        return tc_fail_memory(err, "the function to colour by", tf->n, sizeof *knots);
+    memcpy(knots, tf->knot, tf->n * sizeof *knots);
+    for (size_t i = 0; i < tf->n; i++)
+        knots[i].a = 0;
+    tc_status status = tc_transfer_from_knots(&clear, knots, tf->n, err);
+    if (status == TC_OK)
+        status = tc_transfer_thin(out, clear, scene->options->integrator == TC_INTEGRATOR_EXACT ? 0 : THIN, err);
+    tc_transfer_destroy(&clear);
+    free(knots);
+    return status;
+}
+
+static tc_status upload_function(colors *c, const tc_field *field, const tc_transfer *tf, const tc_gl *gl,
+                                 tc_error *err)
 {
     double span[2];
     tc_pieces pieces;
@@ -109,12 +141,17 @@ static tc_status update(void *state, size_t *bytes, const tc_effect_scene *scene
         finish(c, gl);
         status = upload_values(c, field, gl, err);
     }
-    if (status == TC_OK && (other || c->function != tf->serial)) {
+    if (status == TC_OK && (other || c->function != tf->serial || c->integrator != scene->options->integrator)) {
+        tc_transfer *thin = NULL;
         tc_texture_buffer_finish(&c->pieces, gl);
-        status = upload_function(c, field, tf, gl, err);
+        status = thin_function(&thin, scene, err);
+        if (status == TC_OK)
+            status = upload_function(c, field, thin, gl, err);
+        tc_transfer_destroy(&thin);
     }
     c->field = status == TC_OK ? field->serial : 0;
     c->function = status == TC_OK ? tf->serial : 0;
+    c->integrator = scene->options->integrator;
     *bytes = c->values.bytes + c->pieces.bytes;
     return status;
 }
@@ -157,6 +194,7 @@ const tc_effect tc_effect_color_field = {
     .define = define,
     .rounds = rounds,
     .nonfinite = nonfinite,
+    .knot = knot,
     .state_bytes = sizeof(colors),
     .update = update,
     .finish = finish,
