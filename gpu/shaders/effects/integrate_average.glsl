@@ -23,27 +23,7 @@ void integral_add(inout Integral i, float s, float l)
     i.front = s;
 }
 
-// A segment is added at once; no round need follow.
-bool integral_round(inout Integral i)
-{
-    return false;
-}
-
-bool integral_waits(Integral i)
-{
-    return false;
-}
-
-void integral_stop(inout Integral i, float s)
-{
-}
-
-#ifdef NAN_COLOR
-// A cell whose values are not known is not met.
-void integral_add_constant(inout Integral i, vec4 color, float l)
-{
-}
-#endif
+#include "effects/integrate_at_once.glsl"
 
 // Nothing hides what lies behind.
 float integral_transmittance(Integral i)

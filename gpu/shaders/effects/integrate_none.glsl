@@ -18,25 +18,7 @@ void integral_add(inout Integral i, float s, float l)
 {
 }
 
-bool integral_round(inout Integral i)
-{
-    return false;
-}
-
-bool integral_waits(Integral i)
-{
-    return false;
-}
-
-void integral_stop(inout Integral i, float s)
-{
-}
-
-#ifdef NAN_COLOR
-void integral_add_constant(inout Integral i, vec4 color, float l)
-{
-}
-#endif
+#include "effects/integrate_at_once.glsl"
 
 float integral_transmittance(Integral i)
 {
