@@ -68,6 +68,22 @@ static void surfaces_alone_show_cells_without_a_value(void **state)
     tc_mesh_destroy(&mesh);
 }
 
+static void light_falls_on_the_colour_of_missing_values(void **state)
+{
+    (void)state;
+    tc_mesh *mesh = look_box(SIDE, hole, TC_POINT_DATA);
+    tc_transfer *tf = suite_function(knots, 3);
+    for (int gradient = TC_GRADIENT_CELL; gradient <= TC_GRADIENT_VERTEX; gradient++) {
+        tc_look look = {0};
+        tc_shade_defaults(&look.shade);
+        look.shade.gradient = (tc_gradient)gradient;
+        look.shade.specular = 1;
+        check("light, and missing values", mesh, tf, &look, true);
+    }
+    tc_transfer_destroy(&tf);
+    tc_mesh_destroy(&mesh);
+}
+
 static void light_on_a_second_field_is_cut_off(void **state)
 {
     (void)state;
@@ -164,6 +180,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(geometry_lies_behind_cells_without_a_value),
         cmocka_unit_test(surfaces_alone_show_cells_without_a_value),
+        cmocka_unit_test(light_falls_on_the_colour_of_missing_values),
         cmocka_unit_test(light_on_a_second_field_is_cut_off),
         cmocka_unit_test(a_cell_without_a_colour_has_one),
         cmocka_unit_test(more_layers_than_are_sorted_are_shown),

@@ -73,6 +73,10 @@ void shade_sum(inout Integral integral, Light light)
 #else
     shade_light = shade_of(gradient_cell.xyz, 1.0 / gradient_cell.w, ray);
 #endif
+#ifdef NAN_COLOR
+    shade_light.gain = parts.constant ? LIGHT_NONE.gain : shade_light.gain; // the colour of missing values is not lit
+    shade_light.glow = parts.constant ? LIGHT_NONE.glow : shade_light.glow;
+#endif
 
 //@section part_cut
     shade_keep(integral);
