@@ -82,7 +82,7 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
 #endif
 #ifdef NONFINITE
     // A cell with a value that is not finite has no colour of the function's: its entry and exit face together hold all
-    // its vertices.
+    // its vertices. //@then march_value
     if (isnan(segment.s0) || isnan(segment.s1)) {
 #ifdef NAN_COLOR
         integral_add_constant(integral, march_nan_color, segment.real ? (segment.z1 - segment.z0) * march_unit : 0.0); //@or march_constant

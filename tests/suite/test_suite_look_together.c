@@ -111,23 +111,27 @@ static void light_on_a_second_field_is_cut_off(void **state)
 static void a_cell_without_a_colour_has_one(void **state)
 {
     (void)state;
-    tc_mesh *mesh = look_box(SIDE, slope, TC_POINT_DATA);
+    static const tc_plane plane = {{1, 0.2, 0.4}, 0.55};
     tc_transfer *tf = suite_function(knots, 3);
     double value[TETS > POINTS ? TETS : POINTS];
-    for (int cells = 0; cells < 2; cells++) {
+    for (int kind = 0; kind < 4; kind++) { /* the second field, and the mesh's own, are of points or of cells */
+        const bool cells = kind & 1;
         const int n = cells ? TETS : POINTS;
+        tc_mesh *mesh = look_box(SIDE, kind & 2 ? slope : hole, kind & 2 ? TC_CELL_DATA : TC_POINT_DATA);
         for (int i = 0; i < n; i++)
-            value[i] = i % 40 == 17 ? NAN : i % 5 * 0.3;
+            value[i] = i % 40 == 17 ? NAN : i % 40 == 29 ? INFINITY : i % 5 * 0.3;
         tc_field *field = NULL;
         tc_error err = {0};
         assert_int_equal(tc_field_create(&field, mesh, value, cells ? TC_CELL_DATA : TC_POINT_DATA, NULL, &err), TC_OK);
-        const tc_look look = {.color_field = field, .color_function = tf};
+        const tc_look look = {.color_field = field, .color_function = tf},
+                      cut = {.color_field = field, .color_function = tf, .n_plane = 1, .plane = &plane};
         check("a second field with missing values, shown", mesh, tf, &look, true);
+        check("… and cut", mesh, tf, &cut, true);
         check("… and not shown", mesh, tf, &look, false);
         tc_field_destroy(&field);
+        tc_mesh_destroy(&mesh);
     }
     tc_transfer_destroy(&tf);
-    tc_mesh_destroy(&mesh);
 }
 
 /* Sheets one behind the other: as many as are said to be sorted are; of more the picture is refused. */

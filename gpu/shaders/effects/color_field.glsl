@@ -56,11 +56,11 @@ float color_face(Walk w)
     color_x1 = (segment.real ? fetch(color_values, segment.cell).x : 0.0) * kept_color_map.x + kept_color_map.y;
     color_x0 = color_x1;
 #endif
-#ifdef NONFINITE
-    segment.s0 = isnan(color_x0 + color_x1) ? color_x0 + color_x1 : segment.s0; // a cell without a colour has no value
-#endif
     color_z0 = segment.z0;
     color_z1 = segment.z1;
+
+//@section march_value
+    segment.s0 = isnan(color_x0 + color_x1) ? color_x0 + color_x1 : segment.s0; // a cell without a colour has no value
 
 //@section part_begin
     // Planes may have cut the segment.
