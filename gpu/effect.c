@@ -33,8 +33,8 @@ static tc_status check(const tc_effects *e, tc_error *err)
             char name[64];
             snprintf(name, sizeof name, " %s ", e->row[k]->name);
             if (row->excludes && strstr(row->excludes, name))
-                return tc_fail(err, TC_E_ARG, "%s (%s) and %s (%s) exclude each other; leave one of them out", row->name,
-                               e->why[i], e->row[k]->name, e->why[k]);
+                return tc_fail(err, TC_E_ARG, "%s (%s) and %s (%s) exclude each other; leave one of them out",
+                               row->name, e->why[i], e->row[k]->name, e->why[k]);
         }
         if ((row->needs & TC_NEEDS_POINTS) && e->scene.mesh->association == TC_CELL_DATA)
             return tc_fail(err, TC_E_ARG, "%s (%s) needs values of points, but the field's are of cells", row->name,
@@ -48,8 +48,9 @@ static tc_status check(const tc_effects *e, tc_error *err)
                            e->why[i]);
         tc_integrator asked = e->scene.options->integrator;
         if ((row->needs & TC_NEEDS_SUMS) && asked == TC_INTEGRATOR_TABLE)
-            return tc_fail(err, TC_E_ARG, "%s (%s) needs the integrator 'integral' or 'exact', but 'table' was asked for",
-                           row->name, e->why[i]);
+            return tc_fail(err, TC_E_ARG,
+                           "%s (%s) needs the integrator 'integral' or 'exact', but 'table' was asked for", row->name,
+                           e->why[i]);
         if ((row->needs & TC_NEEDS_PIECES) && asked != TC_INTEGRATOR_AUTO && asked != TC_INTEGRATOR_EXACT)
             return tc_fail(err, TC_E_ARG, "%s (%s) needs the integrator 'exact', but '%s' was asked for", row->name,
                            e->why[i], asked == TC_INTEGRATOR_TABLE ? "table" : "integral");
@@ -64,14 +65,26 @@ static bool is_left_out(const tc_effect *row, const char *without)
     return without && strstr(without, name);
 }
 
-tc_status tc_effects_choose(tc_effects *out, const tc_effect_scene *scene, tc_error *err)
+/* What the row at this place keeps for wanted; NULL: nothing, for it needs nothing or there is no memory for it. */
+static void *memo_of(tc_effect_store *store, int place)
+{
+    size_t bytes = tc_effect_table[place]->memo_bytes;
+    if (!store || bytes == 0)
+        return NULL;
+    if (!store->memo[place])
+        store->memo[place] = tc_calloc(1, bytes);
+    return store->memo[place];
+}
+
+tc_status tc_effects_choose(tc_effects *out, tc_effect_store *store, const tc_effect_scene *scene, tc_error *err)
 {
     memset(out, 0, sizeof *out);
     out->scene = *scene;
     for (int i = 0; tc_effect_table[i]; i++) {
         const tc_effect *row = tc_effect_table[i];
         int k = out->n;
-        if (!row->wanted(out->why[k], scene)) {
+        out->scene.memo = memo_of(store, i);
+        if (!row->wanted(out->why[k], &out->scene)) {
             snprintf(out->why_not[i], sizeof out->why_not[i], "%s", row->model ? "another model" : out->why[k]);
             continue;
         }
@@ -97,6 +110,7 @@ tc_status tc_effects_choose(tc_effects *out, const tc_effect_scene *scene, tc_er
         out->nonfinite = out->nonfinite || (row->nonfinite && row->nonfinite(scene));
         out->n++;
     }
+    out->scene.memo = NULL;
     return check(out, err);
 }
 
@@ -139,9 +153,8 @@ static void drop(tc_effect_store *store, int place, const tc_gl *gl)
     store->bytes[place] = 0;
 }
 
-tc_status tc_effects_update(tc_effects *effects, size_t *bytes, tc_effect_store *store, const tc_gl *gl, tc_error *err)
+tc_status tc_effects_update(tc_effects *effects, tc_effect_store *store, const tc_gl *gl, tc_error *err)
 {
-    *bytes = 0;
     effects->store = store;
     for (int place = 0; tc_effect_table[place]; place++) {
         int k = 0;
@@ -165,7 +178,6 @@ tc_status tc_effects_update(tc_effects *effects, size_t *bytes, tc_effect_store 
             return status;
         }
         effects->bytes[k] = store->bytes[place] = (double)own;
-        *bytes += own;
     }
     return TC_OK;
 }
@@ -252,7 +264,10 @@ void tc_effects_names(char *out, size_t capacity, const tc_effects *effects)
 
 void tc_effect_store_finish(tc_effect_store *store, const tc_gl *gl)
 {
-    for (int place = 0; tc_effect_table[place]; place++)
+    for (int place = 0; tc_effect_table[place]; place++) {
         drop(store, place, gl);
+        free(store->memo[place]);
+        store->memo[place] = NULL;
+    }
     tc_transfer_destroy(&store->function);
 }

@@ -1,7 +1,7 @@
 /* effect.h: what a picture may call for beside the walk through cells, as rows of one table.
  *
- * A row says what turns it on and what it needs; what puts programs together, packs, uploads, binds and passes reads the
- * rows in force and knows none by name. How to add one: docs/adding_an_effect.md. */
+ * A row says what turns it on and what it needs; what puts programs together, packs, uploads, binds and passes reads
+ * the rows in force and knows none by name. How to add one: docs/adding_an_effect.md. */
 #ifndef TC_GPU_EFFECT_H
 #define TC_GPU_EFFECT_H
 
@@ -11,44 +11,40 @@ enum { TC_EFFECTS_MOST = 32, TC_EFFECT_WHY = 160, TC_ISO_MOST = 64 };
 
 /* What needs of a row are. */
 enum {
-    TC_NEEDS_PIECES = 1,    /* the function is integrated piece by piece: segments are added where and when they are met */
-    TC_NEEDS_RANGE = 2,     /* rays begin and end anywhere: ray.near and ray.far are there */
-    TC_NEEDS_STATE_32F = 4, /* what rays carry are numbers, not colours */
-    TC_NEEDS_POINTS = 8,    /* values of points: cell data will not do */
-    TC_NEEDS_SIGNS = 16,    /* the stepper whose walk knows its face's vertices and weights */
+    TC_NEEDS_PIECES = 1, /* the function is integrated piece by piece: segments are added where and when they are met */
+    TC_NEEDS_RANGE = 2,  /* rays begin and end anywhere: ray.near and ray.far are there */
+    TC_NEEDS_STATE_32F = 4,    /* what rays carry are numbers, not colours */
+    TC_NEEDS_POINTS = 8,       /* values of points: cell data will not do */
+    TC_NEEDS_SIGNS = 16,       /* the stepper whose walk knows its face's vertices and weights */
     TC_NEEDS_NO_FUNCTION = 32, /* none is looked at: none is uploaded */
-    TC_NEEDS_SUMS = 64, /* what segments add can be told from what was there: any integrator but the table */
-    TC_NEEDS_WAY = 128, /* rays keep tc_state_set.at from one entry to the next: no first hit but the first empties it */
+    TC_NEEDS_SUMS = 64,        /* what segments add can be told from what was there: any integrator but the table */
+    TC_NEEDS_WAY =
+        128, /* rays keep tc_state_set.at from one entry to the next: no first hit but the first empties it */
 };
 
-/* Images of what effects fetch (fetch.glsl) where the renderer is software, which has few: a row of each line at a time. Those of
- * the paper's stepper are free, for it knows no effects that need them. On GPUs they are textures, TC_UNIT_EFFECT_TEXTURE above. */
+/* Images of what effects fetch (fetch.glsl) where the renderer is software, which has few: a row of each line at a
+ * time. Those of the paper's stepper are free, for it knows no effects that need them. On GPUs they are textures,
+ * TC_UNIT_EFFECT_TEXTURE above. */
 enum {
     TC_UNIT_EFFECT_MASK = 4,  /* bits of cells */
     TC_UNIT_EFFECT_SHADE = 5, /* gradients */
     TC_UNIT_EFFECT_COLOR = 6, /* a second field */
     TC_UNIT_EFFECT_PIECES = 7,
-    TC_UNIT_EFFECT_EMPTY = 14, /* bits of cells, too */
-    TC_UNIT_EFFECT_TEXTURE = 16, /* and above: textures, three a row at most */
-    TC_UNIT_EFFECT_LAYERS = 16,  /* geometry */
+    TC_UNIT_EFFECT_EMPTY = 14,   /* bits of cells, too */
+    TC_UNIT_EFFECT_TEXTURE = 16, /* on GPUs: what is image i elsewhere is texture TC_UNIT_EFFECT_TEXTURE + i */
+    TC_UNIT_EFFECT_LAYERS = 16,  /* geometry: three textures everywhere */
 };
-
-/* How many cells of a mesh lie deep in empty space (effects/empty.c), and of which mesh, values and function: serials. */
-typedef struct tc_empty_count {
-    uint64_t mesh, scalar, function;
-    size_t n;
-} tc_empty_count;
 
 /* What rows are asked about. */
 typedef struct tc_effect_scene {
     const tc_mesh *mesh;
     const tc_transfer *transfer; /* the picture's own */
     const tc_render_options *options;
-    const tc_look *look; /* never NULL */
+    const tc_look *look;                /* never NULL */
     double center[3], scale, scalar[2]; /* as tc_pack has them */
     double length_unit;                 /* as tc_job has it */
     int threads;
-    tc_empty_count *empty; /* the last one, kept with the renderer so that it is not counted at each frame; NULL: not kept */
+    void *memo; /* of the row that is asked whether it is wanted; NULL: nothing is kept */
 } tc_effect_scene;
 
 typedef struct tc_effect {
@@ -61,6 +57,8 @@ typedef struct tc_effect {
     bool model; /* one of those of tc_model */
     /* Does the scene call for it? why [TC_EFFECT_WHY] gets the reason, also for not. */
     bool (*wanted)(char *why, const tc_effect_scene *scene);
+    size_t memo_bytes; /* what wanted keeps in scene->memo from picture to picture, not to find it out for each; zeros
+                          at first */
     /* Lines "#define …" that its shaders go by; NULL: none. Behind what is in out. */
     void (*define)(char *out, size_t capacity, const tc_effect_scene *scene);
     /* The function that stands for the picture's; NULL: itself. In place, knot by knot. */
@@ -69,12 +67,14 @@ typedef struct tc_effect {
     bool (*nonfinite)(const tc_effect_scene *scene);
     /* Rounds of march.glsl's loop that a step may take besides; NULL: none. */
     int (*rounds)(const tc_effect_scene *scene);
-    /* Packs and uploads what is not there yet. *bytes gets what it holds on the GPU. state: zeros at first, of state_bytes. */
+    /* Packs and uploads what is not there yet. *bytes gets what it holds on the GPU. state: zeros at first, of
+     * state_bytes. */
     size_t state_bytes;
     tc_status (*update)(void *state, size_t *bytes, const tc_effect_scene *scene, const tc_gl *gl, tc_error *err);
     void (*finish)(void *state, const tc_gl *gl);
-    /* Makes what depends on the frame of rays (job->frame), before their first hits, within the scissor rectangle, which is
-     * then the whole picture: rays that miss the mesh may see it, too. compile: the programs alone. Both or neither. */
+    /* Makes what depends on the frame of rays (job->frame), before their first hits, within the scissor rectangle,
+     * which is then the whole picture: rays that miss the mesh may see it, too. compile: the programs alone. Both or
+     * neither. */
     tc_status (*compile)(void *state, const tc_effect_scene *scene, const tc_job *job, tc_error *err);
     tc_status (*frame)(void *state, const tc_effect_scene *scene, const tc_job *job, tc_error *err);
     /* Bytes on the GPU after that; NULL: those of update. */
@@ -108,21 +108,23 @@ typedef struct tc_effects {
 
 /* What rows keep in a GL context from picture to picture. */
 typedef struct tc_effect_store {
-    void *state[TC_EFFECTS_MOST]; /* by place in the table; NULL: nothing */
+    void *state[TC_EFFECTS_MOST];  /* by place in the table; NULL: nothing */
     double bytes[TC_EFFECTS_MOST]; /* that these hold on the GPU */
-    tc_empty_count empty;
-    tc_transfer *function;        /* that stands for the picture's */
-    uint64_t function_serial;     /* of the one that it was made of, */
-    int function_place;           /* … by this row */
+    void *memo[TC_EFFECTS_MOST];   /* of wanted */
+    tc_transfer *function;         /* that stands for the picture's */
+    uint64_t function_serial;      /* of the one that it was made of, */
+    int function_place;            /* … by this row */
 } tc_effect_store;
 
-/* Which rows are in force. Errors: TC_E_ARG (two exclude each other, data or stepper will not do; names both). */
-tc_status tc_effects_choose(tc_effects *out, const tc_effect_scene *scene, tc_error *err);
+/* Which rows are in force. store keeps what they found out; NULL: nothing does. Errors: TC_E_ARG (two exclude each
+ * other, data or stepper will not do; names both). */
+tc_status tc_effects_choose(tc_effects *out, tc_effect_store *store, const tc_effect_scene *scene, tc_error *err);
 /* The function that the picture is made with: the scene's own, or one that a row makes of it, which store keeps.
  * Errors: TC_E_MEMORY. */
-tc_status tc_effects_function(const tc_transfer **out, tc_effect_store *store, const tc_effects *effects, tc_error *err);
-/* Uploads what rows in force need, frees what others left; *bytes gets the sum of what is there. */
-tc_status tc_effects_update(tc_effects *effects, size_t *bytes, tc_effect_store *store, const tc_gl *gl, tc_error *err);
+tc_status tc_effects_function(const tc_transfer **out, tc_effect_store *store, const tc_effects *effects,
+                              tc_error *err);
+/* Uploads what rows in force need, frees what others left. Errors: theirs. */
+tc_status tc_effects_update(tc_effects *effects, tc_effect_store *store, const tc_gl *gl, tc_error *err);
 /* What rows make for each frame of rays; whether any does. Errors: as theirs. */
 bool tc_effects_have_frame(const tc_effects *effects);
 tc_status tc_effects_compile(const tc_effects *effects, const tc_job *job, tc_error *err);

@@ -60,8 +60,9 @@ static tc_status get_draw(GLuint *program, const tc_layers_scene *scene, const t
 static tc_status get_order(GLuint *program, const tc_layers_scene *scene, const tc_job *job, tc_error *err)
 {
     char defines[96];
-    snprintf(defines, sizeof defines, "%s%s%s%s", job->software ? "#define SOFTWARE\n" : "", has(scene, true) ? "#define OPAQUE\n" : "",
-             has(scene, false) ? "#define LISTS\n" : "", job->masked ? "#define SAMPLE_MASK\n" : "");
+    snprintf(defines, sizeof defines, "%s%s%s%s", job->software ? "#define SOFTWARE\n" : "",
+             has(scene, true) ? "#define OPAQUE\n" : "", has(scene, false) ? "#define LISTS\n" : "",
+             job->masked ? "#define SAMPLE_MASK\n" : "");
     const tc_program_source source = {"screen.vert", "effects/geometry_order.frag", defines, NULL, NULL};
     return tc_program_get(program, job->programs, &source, err);
 }
@@ -86,14 +87,7 @@ tc_status tc_layers_compile(const tc_layers_scene *scene, const tc_job *job, tc_
 
 static GLuint screen_texture(const tc_layers *l, const tc_gl *gl, GLenum internal, GLenum format, GLenum type)
 {
-    GLuint texture;
-    gl->GenTextures(1, &texture);
-    gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal, l->width, l->height, 0, format, type, NULL);
-    return texture;
+    return tc_pass_new_texture(gl, l->width, l->height, internal, format, type);
 }
 
 static tc_status check_framebuffer(const tc_layers *l, const tc_gl *gl, tc_error *err)
@@ -304,10 +298,11 @@ static tc_status order(const tc_layers *l, const tc_layers_scene *scene, const t
     if (job->software && has(scene, false))
         gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, sizeof longest, sizeof longest, &longest);
     if (longest > LIST_MOST)
-        return tc_fail(err, TC_E_MEMORY,
-                       "%u triangles or lines that are not opaque lie behind one another in a pixel, %s sorts %d; show less of "
-                       "them or make them opaque",
-                       longest, gl->renderer, LIST_MOST);
+        return tc_fail(
+            err, TC_E_MEMORY,
+            "%u triangles or lines that are not opaque lie behind one another in a pixel, %s sorts %d; show less of "
+            "them or make them opaque",
+            longest, gl->renderer, LIST_MOST);
     return TC_OK;
 }
 

@@ -24,7 +24,7 @@ tc_status tc_march_program(GLuint *program, const tc_job *job, const char *verte
              range && !job->frame->clip_far ? "#define CLIP_FAR\n" : "", effects ? effects->defines : "");
     snprintf(alias, sizeof alias, "integrator.glsl=%s%s",
              effects && effects->integrator           ? effects->integrator
-             : job->drift                               ? "integrate_drift.glsl"
+             : job->drift                             ? "integrate_drift.glsl"
              : job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl"
              : job->integrator == TC_INTEGRATOR_EXACT ? "integrate_exact.glsl"
                                                       : "integrate_integral.glsl",

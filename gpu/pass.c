@@ -57,6 +57,18 @@ void tc_pass_fetch(const tc_gl *gl, GLuint program, const char *name, GLuint uni
         tc_pass_texture(gl, program, name, unit, GL_TEXTURE_BUFFER, texture);
 }
 
+GLuint tc_pass_new_texture(const tc_gl *gl, int width, int height, GLenum internal, GLenum format, GLenum type)
+{
+    GLuint texture;
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal, width, height, 0, format, type, NULL);
+    return texture;
+}
+
 void tc_pass_screen(const tc_gl *gl)
 {
     gl->DrawArrays(GL_TRIANGLES, 0, 3);

@@ -18,6 +18,8 @@ void tc_pass_texture(const tc_gl *gl, GLuint program, const char *name, GLuint u
  */
 void tc_pass_fetch(const tc_gl *gl, GLuint program, const char *name, GLuint unit, GLenum format, GLuint texture,
                    bool images);
+/* A new texture of one texel a pixel, left bound; what is in it is anything. */
+GLuint tc_pass_new_texture(const tc_gl *gl, int width, int height, GLenum internal, GLenum format, GLenum type);
 /* One triangle over the viewport (screen.vert). */
 void tc_pass_screen(const tc_gl *gl);
 

@@ -165,7 +165,7 @@ static tc_status add_sections(assembly *a, int *n, const char *name, bool add, i
 /* What a line's marks say: how long the line is without them, and the places' names; "": none. */
 typedef struct mark {
     size_t length;
-    char or[64], then[64];
+    char or [64], then[64];
 } mark;
 
 /* The name behind a mark that begins at `at`, into name; false where there is no such mark. */
@@ -207,8 +207,8 @@ static tc_status add_line(assembly *a, int index, int line, const char *p, size_
     return status == TC_OK ? add_line_directive(a, index, line + 1) : status;
 }
 
-/* Adds the text p of file `index`, which begins at `line`, and what it includes; a section of it ends where the next one
- * begins. */
+/* Adds the text p of file `index`, which begins at `line`, and what it includes; a section of it ends where the next
+ * one begins. */
 static tc_status add_lines(assembly *a, int index, const char *p, int line, const char *section, int depth)
 {
     char taken[64] = ""; /* the place of the lines before, where they gave way */
@@ -217,12 +217,12 @@ static tc_status add_lines(assembly *a, int index, const char *p, int line, cons
         const char *next = strchr(p, '\n'), *end = next ? next : p + strlen(p);
         mark m = find_mark(p, end);
         int n = 0;
-        if (*m.or && strcmp(taken, m.or) != 0)
+        if (*m.or &&strcmp(taken, m.or) != 0)
             status = add_sections(a, &n, m.or, false, depth);
         if (status == TC_OK && n > 1)
             return tc_fail(a->err, TC_E_GL, "shader %s:%d: two effects take the place %s, or one of them twice",
                            tc_shader_files[index].name, line, m.or);
-        if (*m.or && n == 1) {
+        if (*m.or &&n == 1) {
             snprintf(taken, sizeof taken, "%s", m.or);
             status = add_sections(a, &n, m.or, true, depth);
         } else if (!*m.or || strcmp(taken, m.or) != 0) {
@@ -371,7 +371,8 @@ tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_prog
     *program = 0;
     char *vertex = NULL, *fragment = NULL;
     tc_status status =
-        source->vertex ? tc_program_text(&vertex, source->vertex, source->defines, source->alias, source->effects, err) : TC_OK;
+        source->vertex ? tc_program_text(&vertex, source->vertex, source->defines, source->alias, source->effects, err)
+                       : TC_OK;
     if (status == TC_OK)
         status = tc_program_text(&fragment, source->fragment, source->defines, source->alias, source->effects, err);
     if (status != TC_OK)
@@ -393,8 +394,9 @@ tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_prog
     cache->ms += tc_now_ms() - start;
     if (status == TC_OK) {
         int file = file_index(source->fragment, strlen(source->fragment));
-        grown[cache->n++] = (entry){vertex, fragment, *program, tc_shader_files[file].name,
-                                    strlen(fragment) + (vertex ? strlen(vertex) : 0), true};
+        grown[cache->n++] = (entry){
+            vertex, fragment, *program, tc_shader_files[file].name, strlen(fragment) + (vertex ? strlen(vertex) : 0),
+            true};
         vertex = fragment = NULL;
     }
 done:

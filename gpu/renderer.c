@@ -351,7 +351,7 @@ static tc_status peel_picture(tc_picture *picture, tc_gpu_renderer *r, tc_error 
 }
 
 /* What the picture calls for, and the function it is made with. */
-static tc_status prepare_effects(tc_effects *out, const tc_transfer **function, size_t *bytes, tc_gpu_renderer *r,
+static tc_status prepare_effects(tc_effects *out, const tc_transfer **function, tc_gpu_renderer *r,
                                  const tc_gpu_frame *frame, double length_unit, tc_error *err)
 {
     static const tc_look plain = {0};
@@ -365,12 +365,11 @@ static tc_status prepare_effects(tc_effects *out, const tc_transfer **function, 
         .scalar = {r->scalar_lo, r->scalar_hi},
         .length_unit = length_unit,
         .threads = r->threads,
-        .empty = &r->effects.empty,
     };
-    tc_status status = tc_effects_choose(out, &scene, err);
+    tc_status status = tc_effects_choose(out, &r->effects, &scene, err);
     if (status == TC_OK)
         status = tc_effects_function(function, &r->effects, out, err);
-    return status == TC_OK ? tc_effects_update(out, bytes, &r->effects, &r->context->gl, err) : status;
+    return status == TC_OK ? tc_effects_update(out, &r->effects, &r->context->gl, err) : status;
 }
 
 tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu_frame *frame, tc_error *err)
@@ -404,9 +403,8 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     job.length_unit = fmin(1 / (r->scale * frame->unit_distance), 1e30); /* a float, and its products */
     tc_effects effects;
     const tc_transfer *function = frame->transfer;
-    size_t effect_bytes = 0;
     if (status == TC_OK)
-        status = prepare_effects(&effects, &function, &effect_bytes, r, frame, job.length_unit, err);
+        status = prepare_effects(&effects, &function, r, frame, job.length_unit, err);
     if (status == TC_OK) {
         job.effects = &effects;
         job.cell_data = r->mesh.cell_scalar.texture != 0;

@@ -1,18 +1,13 @@
 /* state.c: the textures that carry rays from pass to pass. */
 #include "gpu/state.h"
 
+#include "gpu/pass.h"
+
 #include <string.h>
 
 static GLuint screen_texture(const tc_state *s, const tc_gl *gl, GLenum internal, GLenum format, GLenum type)
 {
-    GLuint texture;
-    gl->GenTextures(1, &texture);
-    gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)internal, s->width, s->height, 0, format, type, NULL);
-    return texture;
+    return tc_pass_new_texture(gl, s->width, s->height, internal, format, type);
 }
 
 static GLuint depth_buffer(const tc_state *s, const tc_gl *gl)

@@ -34,8 +34,8 @@ static const double DEPTH_MOST = 1000; /* of an edge: running integrals round to
 static const double WIDTH_LEAST = 1e-300;
 static const double NARROW_MOST = 1e6;
 static const double LENGTH_UNIT_MOST = 1e15;
-static const double STEP_MARGIN = 1.0 / 16;           /* of the knots' span */
-static const double WIDEN_CONSTANT = 1e-3; /* of the scalar: the span of data of one value */
+static const double STEP_MARGIN = 1.0 / 16; /* of the knots' span */
+static const double WIDEN_CONSTANT = 1e-3;  /* of the scalar: the span of data of one value */
 
 /* The part of the data's range in which the function changes: beyond its end knots it is constant. */
 static void find_span(double span[2], const tc_transfer_gpu_request *request)
@@ -186,9 +186,11 @@ tc_status tc_transfer_plan_make(tc_transfer_plan *out, char *why, size_t capacit
     bool exact = options->integrator == TC_INTEGRATOR_EXACT || request->pieces_only;
     bool as_it_is = options->integral_order > 0 || options->integral_split > 0;
     const char *reason = NULL;
-    *out = (tc_transfer_plan){.integrator = exact ? TC_INTEGRATOR_EXACT : options->integrator, .order = options->integral_order == 1 ? 1 : 2};
+    *out = (tc_transfer_plan){.integrator = exact ? TC_INTEGRATOR_EXACT : options->integrator,
+                              .order = options->integral_order == 1 ? 1 : 2};
     find_span(out->span, request);
-    if (!exact && options->integrator == TC_INTEGRATOR_TABLE && (range || options->table_format == TC_TABLE_8 || !few)) {
+    if (!exact && options->integrator == TC_INTEGRATOR_TABLE &&
+        (range || options->table_format == TC_TABLE_8 || !few)) {
         if (range)
             memcpy(out->span, request->scalar, sizeof out->span); /* a table knows nothing outside */
         return TC_OK;

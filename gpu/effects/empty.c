@@ -21,9 +21,15 @@ enum { DEPTH = 3, CHUNK = 512 }; /* CHUNK: words of a mask, one thread's at a ti
  * 0.8 up to 1.5. */
 static const double SHARE_LEAST = 0.88;
 
+/* How many cells lie deep in empty space, and of which mesh, values and function: serials. */
+typedef struct empty_count {
+    uint64_t mesh, scalar, function;
+    size_t n;
+} empty_count;
+
 typedef struct empty_space {
     tc_texture_buffer mask;
-    tc_empty_count made_of;
+    empty_count made_of;
 } empty_space;
 
 typedef struct erosion {
@@ -124,12 +130,12 @@ static const char *looks_at_cells(const tc_effect_scene *scene)
     return scene->options->stepper == TC_STEPPER_PLANES ? "the stepper is 'planes'" : NULL;
 }
 
-static tc_empty_count key_of(const tc_effect_scene *scene)
+static empty_count key_of(const tc_effect_scene *scene)
 {
-    return (tc_empty_count){scene->mesh->serial, scene->mesh->scalar_serial, scene->transfer->serial, 0};
+    return (empty_count){scene->mesh->serial, scene->mesh->scalar_serial, scene->transfer->serial, 0};
 }
 
-static bool is_same(const tc_empty_count *a, const tc_empty_count *b)
+static bool is_same(const empty_count *a, const empty_count *b)
 {
     return a->mesh == b->mesh && a->scalar == b->scalar && a->function == b->function;
 }
@@ -138,7 +144,7 @@ static bool wanted(char *why, const tc_effect_scene *scene)
 {
     const tc_mesh *mesh = scene->mesh;
     const char *instead = looks_at_cells(scene);
-    tc_empty_count found = key_of(scene), *kept = scene->empty;
+    empty_count found = key_of(scene), *kept = scene->memo;
     if (!instead && !has_gap(scene->transfer, scene->scalar))
         instead = "the function is transparent nowhere";
     if (instead) {
@@ -177,7 +183,7 @@ static tc_status update(void *state, size_t *bytes, const tc_effect_scene *scene
 {
     empty_space *e = state;
     const tc_mesh *mesh = scene->mesh;
-    const tc_empty_count key = key_of(scene);
+    const empty_count key = key_of(scene);
     tc_status status = TC_OK;
     if (!e->mask.texture || !is_same(&e->made_of, &key)) {
         uint32_t *mask;
@@ -206,6 +212,7 @@ const tc_effect tc_effect_empty_space = {
     .what = "cells in which nothing is seen, stepped through without integration",
     .shaders = "effects/empty.glsl",
     .wanted = wanted,
+    .memo_bytes = sizeof(empty_count),
     .rounds = rounds,
     .state_bytes = sizeof(empty_space),
     .update = update,

@@ -23,7 +23,8 @@ static void find_cases(cases *c, const tc_explanation *e)
         if (e->effect[i].in_force && !e->effect[i].model)
             c->name[c->n++] = i;
     for (int k = 1; k <= c->n; k++)
-        snprintf(c->without[k], sizeof c->without[k], "%.400s %s ", c->without[k - 1], e->effect[c->name[c->n - k]].name);
+        snprintf(c->without[k], sizeof c->without[k], "%.400s %s ", c->without[k - 1],
+                 e->effect[c->name[c->n - k]].name);
 }
 
 static tc_status time_case(double *ms, double *first_hit, const char *without, tc_renderer *renderer,
@@ -68,7 +69,7 @@ static void add_part(tc_shares *out, const char *name, double ms)
 }
 
 tc_status tc_shares_measure(tc_shares *out, const tc_explanation *explanation, tc_renderer *renderer,
-                           const tc_render_run *run, const tc_log *log, tc_error *err)
+                            const tc_render_run *run, const tc_log *log, tc_error *err)
 {
     memset(out, 0, sizeof *out);
     cases *c = calloc(1, sizeof *c);

@@ -16,10 +16,10 @@ typedef struct tc_shares {
     double sum, frame; /* of the parts; of whole frames, measured beside them and not used for them */
 } tc_shares;
 
-/* Renders frames with all effects, then with one after the other left out from the last to the model, until the bare walk is
- * left; in rounds over all of these, so that what else the machine does hits them alike. A part is the difference of two
- * medians. Errors: as tc_render. */
+/* Renders frames with all effects, then with one after the other left out from the last to the model, until the bare
+ * walk is left; in rounds over all of these, so that what else the machine does hits them alike. A part is the
+ * difference of two medians. Errors: as tc_render. */
 tc_status tc_shares_measure(tc_shares *out, const tc_explanation *explanation, tc_renderer *renderer,
-                           const tc_render_run *run, const tc_log *log, tc_error *err);
+                            const tc_render_run *run, const tc_log *log, tc_error *err);
 
 #endif

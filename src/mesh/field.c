@@ -2,7 +2,6 @@
 #include "mesh/field.h"
 
 #include "core/memory.h"
-#include "core/parallel.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,23 +14,6 @@ static void scatter_points(double *value, const double *from, const tc_mesh *m)
         const int32_t v = m->vertex_of_source ? m->vertex_of_source[s] : (int32_t)s;
         if (v >= 0)
             value[v] = from[s];
-    }
-}
-
-typedef struct scatter {
-    double *value;
-    const double *from;
-    const int32_t *to; /* each but -1 once; NULL: as they are */
-} scatter;
-
-static void scatter_cells(void *context, size_t begin, size_t end, int worker)
-{
-    (void)worker;
-    const scatter *j = context;
-    for (size_t s = begin; s < end; s++) {
-        const int32_t t = j->to ? j->to[s] : (int32_t)s;
-        if (t >= 0)
-            j->value[t] = j->from[s];
     }
 }
 
@@ -84,8 +66,7 @@ tc_status tc_field_create(tc_field **out, const tc_mesh *mesh, const double *val
     if (association == TC_POINT_DATA) {
         scatter_points(copy, value, mesh);
     } else {
-        scatter j = {copy, value, mesh->tet_of_source};
-        tc_parallel_for(mesh->n_tet_source, 1 << 14, 0, scatter_cells, &j);
+        tc_mesh_scatter_cells(copy, mesh, value);
     }
     measure(f, mesh);
     *out = f;

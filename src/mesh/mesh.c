@@ -159,6 +159,12 @@ static void scatter_cells(void *context, size_t begin, size_t end, int worker)
     }
 }
 
+void tc_mesh_scatter_cells(double *out, const tc_mesh *mesh, const double *value)
+{
+    scatter j = {out, value, mesh->tet_of_source};
+    tc_parallel_for(mesh->n_tet_source, 1 << 14, 0, scatter_cells, &j);
+}
+
 tc_status tc_mesh_set_scalar(tc_mesh *m, const double *scalar, tc_association association, tc_error *err)
 {
     if (!m || !scalar)
@@ -179,8 +185,7 @@ tc_status tc_mesh_set_scalar(tc_mesh *m, const double *scalar, tc_association as
             return status;
         }
     } else {
-        scatter j = {value, scalar, m->tet_of_source};
-        tc_parallel_for(m->n_tet_source, 1 << 14, 0, scatter_cells, &j);
+        tc_mesh_scatter_cells(value, m, scalar);
     }
     if (!in_place)
         free(m->scalar);

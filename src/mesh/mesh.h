@@ -57,6 +57,8 @@ void tc_mesh_measure_scalar(tc_mesh *mesh);
 tc_status tc_mesh_measure(tc_mesh *mesh, int threads, tc_error *err);
 /* Says what became of cells that do not fit together, as tc_mesh_prepare does. */
 void tc_mesh_say_defects(const tc_log *log, const tc_mesh_report *report);
+/* Values of the source's cells [n_tet_source] in this mesh's order, out [n_tet]. Cost: O(cells), all cores. */
+void tc_mesh_scatter_cells(double *out, const tc_mesh *mesh, const double *value);
 /* A number that no other call of this process gives: for serial and scalar_serial. */
 uint64_t tc_mesh_new_serial(void);
 

@@ -285,17 +285,18 @@ static bool wrong_reach(sentence s, int i, const tc_geometry *g, const tc_mesh *
     for (size_t v = 0; v < g->n_vertex; v++)
         for (size_t k = 0; k < 3; k++)
             if (!(fabs(g->vertex[3 * v + k] - 0.5 * (b[2 * k] + b[2 * k + 1])) <= most))
-                return wrong(s, "vertex %zu of geometry %d lies at %g,%g,%g, more than %g times the mesh's diagonal away; cut "
-                                "the geometry to what is near the mesh", v, i, g->vertex[3 * v], g->vertex[3 * v + 1],
-                             g->vertex[3 * v + 2], FAR);
+                return wrong(
+                    s,
+                    "vertex %zu of geometry %d lies at %g,%g,%g, more than %g times the mesh's diagonal away; cut "
+                    "the geometry to what is near the mesh",
+                    v, i, g->vertex[3 * v], g->vertex[3 * v + 1], g->vertex[3 * v + 2], FAR);
     return false;
 }
 
 static bool wrong_geometry(sentence s, const tc_look *look, const tc_mesh *mesh)
 {
     for (int i = 0; i < look->n_geometry; i++)
-        if (tc_geometry_wrong(s.text, s.capacity, &look->geometry[i]) ||
-            wrong_reach(s, i, &look->geometry[i], mesh))
+        if (tc_geometry_wrong(s.text, s.capacity, &look->geometry[i]) || wrong_reach(s, i, &look->geometry[i], mesh))
             return true;
     return false;
 }

@@ -1,11 +1,18 @@
-/* test_suite_look_absence.c: a scene pays for what another one called for: code, bytes, passes, or a picture that differs. */
+/* test_suite_look_absence.c: a scene pays for what another one called for: code, bytes, passes, or a picture that
+ * differs. */
 #include "look.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 64, HEIGHT = 56, SIDE = 4, POINTS = (SIDE + 1) * (SIDE + 1) * (SIDE + 1), TETS = 6 * SIDE * SIDE * SIDE };
+enum {
+    WIDTH = 64,
+    HEIGHT = 56,
+    SIDE = 4,
+    POINTS = (SIDE + 1) * (SIDE + 1) * (SIDE + 1),
+    TETS = 6 * SIDE * SIDE * SIDE
+};
 
 static double slope(const double *x)
 {

@@ -64,7 +64,7 @@ static void a_plane_cuts_elsewhere(void **state)
 static void a_box_cuts_elsewhere(void **state)
 {
     (void)state;
-    const tc_plane plane[7] = {{{1, 0, 0}, 0.1},   {{-1, 0, 0}, -0.55}, {{0, 1, 0}, 0.3},  {{0, -1, 0}, -2},
+    const tc_plane plane[7] = {{{1, 0, 0}, 0.1},   {{-1, 0, 0}, -0.55}, {{0, 1, 0}, 0.3}, {{0, -1, 0}, -2},
                                {{0, 0, 1}, -1e20}, {{0, 0, -1}, -0.9},  {{1, 1, 1}, 1.05}};
     const tc_look look = {.has_box = true, .box = {0.1, 0.55, 0.3, 2, -1e20, 0.9}};
     check_constant("a box", &look, plane, 6);
@@ -140,8 +140,8 @@ int main(int argc, char **argv)
     if (!suite_begin(argc, argv))
         return SUITE_SKIPPED;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_plane_cuts_elsewhere),          cmocka_unit_test(a_box_cuts_elsewhere),
-        cmocka_unit_test(nothing_that_is_kept_is_shown),   cmocka_unit_test(a_cut_face_has_another_scalar),
+        cmocka_unit_test(a_plane_cuts_elsewhere),        cmocka_unit_test(a_box_cuts_elsewhere),
+        cmocka_unit_test(nothing_that_is_kept_is_shown), cmocka_unit_test(a_cut_face_has_another_scalar),
         cmocka_unit_test(a_plain_scene_knows_of_planes),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,10 +1,17 @@
-/* test_suite_look_color_field.c: colour by a second field is not that field's, or is paid for without being asked for. */
+/* test_suite_look_color_field.c: colour by a second field is not that field's, or is paid for without being asked for.
+ */
 #include "look.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 72, HEIGHT = 64, SIDE = 5, POINTS = (SIDE + 1) * (SIDE + 1) * (SIDE + 1), TETS = 6 * SIDE * SIDE * SIDE };
+enum {
+    WIDTH = 72,
+    HEIGHT = 64,
+    SIDE = 5,
+    POINTS = (SIDE + 1) * (SIDE + 1) * (SIDE + 1),
+    TETS = 6 * SIDE * SIDE * SIDE
+};
 
 static double slope(const double *x)
 {

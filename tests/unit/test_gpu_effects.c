@@ -132,7 +132,7 @@ static void choose(tc_effects *out, const tc_look *look, const tc_transfer *tf, 
                                    .scalar = {l->mesh->report.scalar_range[0], l->mesh->report.scalar_range[1]},
                                    .length_unit = 1,
                                    .threads = 1};
-    if (tc_effects_choose(out, &scene, &err) != TC_OK)
+    if (tc_effects_choose(out, NULL, &scene, &err) != TC_OK)
         fail_msg("%s", err.text);
 }
 
@@ -148,7 +148,8 @@ static char *march_text(const tc_effects *effects)
     return text;
 }
 
-/* The shader files of which a text holds something, by the numbers of its #line directives: bits of the list's places. */
+/* The shader files of which a text holds something, by the numbers of its #line directives: bits of the list's places.
+ */
 static uint64_t files_in(const char *text, int first[1])
 {
     uint64_t set = 0;
@@ -265,13 +266,13 @@ static void effects_that_exclude_each_other_are_taken(void **state)
     for (int i = 0; tc_effect_table[i]; i++)
         there = there || strcmp(tc_effect_table[i]->name, "maximum") == 0;
     if (there) {
-        assert_int_equal(tc_effects_choose(&effects, &scene, &err), TC_E_ARG);
+        assert_int_equal(tc_effects_choose(&effects, NULL, &scene, &err), TC_E_ARG);
         assert_non_null(strstr(err.text, "maximum"));
         assert_non_null(strstr(err.text, "color-field"));
     }
     look_of(&look, &tf, "isosurfaces", &l);
     options.integrator = TC_INTEGRATOR_TABLE;
-    assert_int_equal(tc_effects_choose(&effects, &scene, &err), TC_E_ARG);
+    assert_int_equal(tc_effects_choose(&effects, NULL, &scene, &err), TC_E_ARG);
     assert_non_null(strstr(err.text, "exact"));
     looks_end(&l);
 }
@@ -284,7 +285,8 @@ static void sections_are_put_elsewhere(void **state)
     const char *alias = "integrator.glsl=integrate_exact.glsl";
     assert_int_equal(tc_program_text(&text, "march.frag", "#define CLIP_PLANES 1\n", alias, "effects/clip.glsl", &err),
                      TC_OK);
-    const char *ray = strstr(text, "    Ray ray = ray_of_pixel(pixel);\n"), *clip = strstr(text, "    clip_ray(ray);\n");
+    const char *ray = strstr(text, "    Ray ray = ray_of_pixel(pixel);\n"),
+               *clip = strstr(text, "    clip_ray(ray);\n");
     assert_true(ray && clip && clip > ray && clip < strstr(ray, "Walk w;"));
     assert_null(strstr(text, "//@"));
     free(text);
