@@ -4,7 +4,8 @@
  * Opaque triangles and lines are drawn with a depth test, since one fragment of a pixel is all that is seen of them;
  * what lies before it and lets light through goes into lists, of all pixels in one buffer, which a pass then sorts
  * (after Yang, Hensley, Grün and Thibieroz 2010). So all is drawn once, however many layers lie behind one another, and
- * memory goes with the fragments that there are. */
+ * memory goes with the fragments that there are. Software renderers, which cut loops, sort 2500 in a pixel; of more the picture is
+ * refused. */
 #ifndef TC_GPU_LAYERS_H
 #define TC_GPU_LAYERS_H
 
@@ -33,7 +34,7 @@ typedef struct tc_layers_scene {
 tc_status tc_layers_compile(const tc_layers_scene *scene, const tc_job *job, tc_error *err);
 /* The lists of the job's frame, within the scissor rectangle; the first list of a pixel outside of it is not written.
  * Empties what rays keep of their way (tc_state_set.at, both sets). Binds framebuffers, image units 0 and 1. Errors:
- * TC_E_MEMORY (more fragments than fit, with the remedy), TC_E_GL. Cost: triangles and lines once, or twice where they
+ * TC_E_MEMORY (more fragments than fit or can be sorted, with the remedy), TC_E_GL. Cost: triangles and lines once, or twice where they
  * have more fragments than any frame before. */
 tc_status tc_layers_draw(tc_layers *layers, const tc_layers_scene *scene, const tc_job *job, tc_error *err);
 void tc_layers_finish(tc_layers *layers, const tc_gl *gl);
