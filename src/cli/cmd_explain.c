@@ -1,9 +1,9 @@
 /* cmd_explain.c: `tetcast explain`: what a picture calls for and why, with bytes, programs and passes; with --measure
  * what each part of it costs. */
 #include "cli/commands.h"
-#include "cli/explain_measure.h"
-#include "cli/render_choose.h"
-#include "cli/render_setup.h"
+#include "cli/picture/explain_measure.h"
+#include "cli/picture/render_choose.h"
+#include "cli/picture/render_setup.h"
 
 #include <stddef.h>
 #include <stdio.h>

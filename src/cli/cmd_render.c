@@ -1,8 +1,8 @@
 /* cmd_render.c: `tetcast render`: one image of a mesh, or one of each of several steps. */
-#include "cli/render_choose.h"
-#include "cli/render_picture.h"
-#include "cli/render_sequence.h"
-#include "cli/render_setup.h"
+#include "cli/picture/render_choose.h"
+#include "cli/picture/render_picture.h"
+#include "cli/picture/render_sequence.h"
+#include "cli/picture/render_setup.h"
 
 #include <math.h>
 #include <stdio.h>

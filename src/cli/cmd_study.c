@@ -4,7 +4,7 @@
 #include "cli/gnuplot.h"
 #include "cli/input_cache.h"
 #include "cli/json_out.h"
-#include "cli/render_options.h"
+#include "cli/picture/render_options.h"
 
 #include <math.h>
 #include <stdio.h>

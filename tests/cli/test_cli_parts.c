@@ -8,8 +8,8 @@
 #include "cli/info_text.h"
 #include "cli/input.h"
 #include "cli/nearest.h"
-#include "cli/render_verify.h"
-#include "cli/render_view.h"
+#include "cli/picture/render_verify.h"
+#include "cli/picture/render_view.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,10 +5,10 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "cli/categories.h"
+#include "cli/picture/categories.h"
 #include "cli/commands.h"
-#include "cli/render_options.h"
-#include "cli/scene_lines.h"
+#include "cli/picture/render_options.h"
+#include "cli/scene/scene_lines.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
-/* The names and numbers of several steps (cli/step_names.h). */
+/* The names and numbers of several steps (cli/picture/step_names.h). */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "cli/step_names.h"
+#include "cli/picture/step_names.h"
 
 #include <stdio.h>
 #include <stdlib.h>

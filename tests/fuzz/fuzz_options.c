@@ -5,7 +5,7 @@
 #include "fuzz.h"
 
 #include "cli/commands.h"
-#include "cli/render_options.h"
+#include "cli/picture/render_options.h"
 
 #include <math.h>
 

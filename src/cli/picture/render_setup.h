@@ -2,8 +2,8 @@
 #ifndef TC_CLI_RENDER_SETUP_H
 #define TC_CLI_RENDER_SETUP_H
 
-#include "cli/look_build.h"
-#include "cli/render_report.h"
+#include "cli/picture/look_build.h"
+#include "cli/picture/render_report.h"
 
 /* Opens INPUT, says what was wrong with it, and makes the transfer function, the camera, and the options with the look,
  * into a run that is all zeros. -1, or the exit code of an error that was printed; tc_render_close frees what is there

@@ -1,6 +1,6 @@
 /* categories.c: --categories: a colour for each value, as of material numbers. */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/categories.h"
+#include "cli/picture/categories.h"
 #include "cli/options.h"
 
 #include <jansson.h>

@@ -1,6 +1,6 @@
 /* look_build.c: from the options of a look, a mesh and its file to a tc_look. */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/look_build.h"
+#include "cli/picture/look_build.h"
 #include "cli/nearest.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* render_choose.c: --error and --frame-time: settings by what they give instead of by name. */
-#include "cli/render_choose.h"
-#include "cli/render_verify.h"
+#include "cli/picture/render_choose.h"
+#include "cli/picture/render_verify.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 /* scene_file.c: a scene file is read as options: what a key may be and what its value means is said by the option's
  * row. */
 #define _GNU_SOURCE
-#include "cli/scene_file.h"
+#include "cli/scene/scene_file.h"
 #include "cli/nearest.h"
-#include "cli/scene_lines.h"
+#include "cli/scene/scene_lines.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* explain_measure.c: what each part of a frame costs, by leaving it out. */
-#include "cli/explain_measure.h"
+#include "cli/picture/explain_measure.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* render_stats.c: the --stats JSON of a render. Every number that was not measured is absent, never 0. */
-#include "cli/look_build.h"
-#include "cli/render_choose.h"
+#include "cli/picture/look_build.h"
+#include "cli/picture/render_choose.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* render_options.c: the options of `render` as one table, and the checks that need no mesh. */
-#include "cli/render_options.h"
+#include "cli/picture/render_options.h"
 #include "cli/commands.h"
 #include "cli/json_out.h"
 

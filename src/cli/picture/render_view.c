@@ -1,5 +1,5 @@
 /* render_view.c: the camera of a command line, and why a picture is empty. */
-#include "cli/render_view.h"
+#include "cli/picture/render_view.h"
 
 #include <math.h>
 #include <stdio.h>

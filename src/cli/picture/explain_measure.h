@@ -2,7 +2,7 @@
 #ifndef TC_CLI_EXPLAIN_MEASURE_H
 #define TC_CLI_EXPLAIN_MEASURE_H
 
-#include "cli/render_report.h"
+#include "cli/picture/render_report.h"
 
 typedef struct tc_share {
     char name[48];

@@ -3,7 +3,7 @@
 #define TC_CLI_RENDER_REPORT_H
 
 #include "cli/input_cache.h"
-#include "cli/render_options.h"
+#include "cli/picture/render_options.h"
 
 /* A median with its extremes; NAN where not measured. */
 typedef struct tc_spread {

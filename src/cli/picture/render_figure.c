@@ -1,6 +1,6 @@
 /* render_figure.c: what a run asks for around its picture, and the room that the picture leaves for it. */
-#include "cli/render_figure.h"
-#include "cli/look_build.h"
+#include "cli/picture/render_figure.h"
+#include "cli/picture/look_build.h"
 
 /* Why no colour of the picture is the function's, which a colour bar would tell; NULL: some are. */
 static const char *tc_bar_untrue(const tc_look *look)

@@ -1,5 +1,5 @@
 /* step_names.c: --step FROM:TO[:STRIDE], and the name of each step's picture. */
-#include "cli/step_names.h"
+#include "cli/picture/step_names.h"
 #include "cli/options.h"
 
 #include <math.h>

@@ -2,9 +2,9 @@
 #ifndef TC_CLI_LOOK_BUILD_H
 #define TC_CLI_LOOK_BUILD_H
 
-#include "cli/categories.h"
+#include "cli/picture/categories.h"
 #include "cli/json_out.h"
-#include "cli/render_options.h"
+#include "cli/picture/render_options.h"
 
 /* A look with all that it points to. */
 typedef struct tc_look_parts {

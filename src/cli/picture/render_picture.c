@@ -1,10 +1,10 @@
 /* render_picture.c: from a prepared mesh to one picture in a file. */
-#include "cli/render_picture.h"
-#include "cli/look_build.h"
-#include "cli/render_choose.h"
-#include "cli/render_figure.h"
-#include "cli/render_verify.h"
-#include "cli/render_view.h"
+#include "cli/picture/render_picture.h"
+#include "cli/picture/look_build.h"
+#include "cli/picture/render_choose.h"
+#include "cli/picture/render_figure.h"
+#include "cli/picture/render_verify.h"
+#include "cli/picture/render_view.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* render_meta.c: the metadata that a picture carries, so that it can be made again. */
 #define _GNU_SOURCE
-#include "cli/render_choose.h"
+#include "cli/picture/render_choose.h"
 
 #include <stdio.h>
 #include <stdlib.h>

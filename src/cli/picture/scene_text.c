@@ -2,8 +2,8 @@
  * chosen or found by itself (camera, range, unit distance, step, way through gaps, driver) what was in force. Files by
  * their whole path. */
 #define _GNU_SOURCE
-#include "cli/look_build.h"
-#include "cli/render_choose.h"
+#include "cli/picture/look_build.h"
+#include "cli/picture/render_choose.h"
 
 #include <math.h>
 #include <stdio.h>

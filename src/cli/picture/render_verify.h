@@ -2,7 +2,7 @@
 #ifndef TC_CLI_RENDER_VERIFY_H
 #define TC_CLI_RENDER_VERIFY_H
 
-#include "cli/render_report.h"
+#include "cli/picture/render_report.h"
 
 /* Verifies run->image and says what came out; fills run->verify and, with --error-image, run->errors. -1 to go on, else
  * an exit code. */

@@ -1,8 +1,8 @@
 /* render_sequence.c: `render --step FROM:TO`: one picture of each step, with one function, camera and unit distance. */
 #define _GNU_SOURCE
-#include "cli/render_sequence.h"
-#include "cli/render_picture.h"
-#include "cli/render_setup.h"
+#include "cli/picture/render_sequence.h"
+#include "cli/picture/render_picture.h"
+#include "cli/picture/render_setup.h"
 
 #include <math.h>
 #include <stdio.h>

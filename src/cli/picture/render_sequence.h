@@ -2,7 +2,7 @@
 #ifndef TC_CLI_RENDER_SEQUENCE_H
 #define TC_CLI_RENDER_SEQUENCE_H
 
-#include "cli/render_options.h"
+#include "cli/picture/render_options.h"
 
 /* All steps of options->steps, with one transfer function, camera and unit distance: the function over the range that the
  * scalars have in all of them (unless --range says it), which takes a first pass over the values; the others by the first

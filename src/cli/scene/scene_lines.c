@@ -1,5 +1,5 @@
 /* scene_lines.c: in which line of a JSON text a key stands. The text is known to be valid: nothing is checked again. */
-#include "cli/scene_lines.h"
+#include "cli/scene/scene_lines.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,7 +2,7 @@
 #ifndef TC_CLI_RENDER_VIEW_H
 #define TC_CLI_RENDER_VIEW_H
 
-#include "cli/render_options.h"
+#include "cli/picture/render_options.h"
 
 /* ResetCamera from +z, then what the options say, then azimuth, elevation, roll and zoom.
  * -1 to go on, else the exit code (the eye on the focal point). */

@@ -2,7 +2,7 @@
 #ifndef TC_CLI_RENDER_CHOOSE_H
 #define TC_CLI_RENDER_CHOOSE_H
 
-#include "cli/render_report.h"
+#include "cli/picture/render_report.h"
 
 /* Chooses run->render's knobs; fills run->choice and says why. -1 to go on, else the exit code of an error that was
  * printed. */

@@ -1,5 +1,5 @@
 /* look_options.c: the options of a look as one table, and the checks that need no mesh. */
-#include "cli/look_options.h"
+#include "cli/picture/look_options.h"
 
 #include <math.h>
 #include <stdio.h>

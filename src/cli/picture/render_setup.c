@@ -1,7 +1,7 @@
 /* render_setup.c: from the command line of `render` to all that a picture is made of. */
-#include "cli/render_setup.h"
-#include "cli/render_figure.h"
-#include "cli/render_view.h"
+#include "cli/picture/render_setup.h"
+#include "cli/picture/render_figure.h"
+#include "cli/picture/render_view.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef TC_CLI_RENDER_PICTURE_H
 #define TC_CLI_RENDER_PICTURE_H
 
-#include "cli/render_report.h"
+#include "cli/picture/render_report.h"
 
 /* What the frames of one run are made with. */
 typedef struct tc_frames {

@@ -1,6 +1,6 @@
 /* render_verify.c: --verify and --error-image: how wrong the picture is, in words and as an image. */
 #define _GNU_SOURCE
-#include "cli/render_verify.h"
+#include "cli/picture/render_verify.h"
 
 #include <math.h>
 #include <stdio.h>

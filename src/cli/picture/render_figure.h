@@ -2,7 +2,7 @@
 #ifndef TC_CLI_RENDER_FIGURE_H
 #define TC_CLI_RENDER_FIGURE_H
 
-#include "cli/render_report.h"
+#include "cli/picture/render_report.h"
 
 /* Title, colour bar, axes and triad, those that are asked for, for a run whose mesh, function, look and camera are there; no
  * bar where no colour of the picture is the function's.

@@ -3,9 +3,9 @@
 #define TC_CLI_RENDER_OPTIONS_H
 
 #include "cli/input.h"
-#include "cli/look_options.h"
-#include "cli/scene_file.h"
-#include "cli/step_names.h"
+#include "cli/picture/look_options.h"
+#include "cli/scene/scene_file.h"
+#include "cli/picture/step_names.h"
 
 typedef struct tc_size {
     int width, height;
