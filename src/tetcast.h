@@ -213,6 +213,36 @@ TC_API tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_opt
  * comparing 3 doubles a point and the cells' point numbers, O(vertices) or O(tets); cells are not split again. */
 TC_API tc_status tc_mesh_read_values(tc_mesh **moved, tc_mesh *mesh, const char *path, const tc_read_options *options,
                                      const tc_log *log, tc_error *err);
+
+/* tc_mesh_read_values on a thread of its own, so that the next step is read while this one is rendered. begin returns at
+ * once; path and the texts of options are copied. Until the end mesh stays as it is and may be rendered; calls that need its
+ * reader (tc_field_read) wait for it. prepare, may be NULL: a mesh that moved is also prepared on that thread.
+ * Errors: TC_E_ARG, TC_E_MEMORY; the others are told at the end. */
+typedef struct tc_mesh_ahead tc_mesh_ahead;
+TC_API tc_status tc_mesh_ahead_begin(tc_mesh_ahead **out, tc_mesh *mesh, const char *path, const tc_read_options *options,
+                                     const tc_prepare_options *prepare, tc_error *err);
+/* Waits for it, and puts the values onto mesh, the one of begin; *ahead is freed, whatever the result, and what was to be said
+ * goes to log now. moved, status and errors as of tc_mesh_read_values, and those of tc_mesh_prepare (then *moved is NULL).
+ * mesh NULL: what was read is not wanted any more. */
+TC_API tc_status tc_mesh_ahead_end(tc_mesh **moved, tc_mesh *mesh, tc_mesh_ahead **ahead, const tc_log *log,
+                                   tc_error *err);
+
+/* What a step's mesh will be like, found without splitting cells and without making a mesh. */
+typedef struct tc_survey {
+    tc_status status;    /* TC_OK, or why the step could not be read; the rest is then zeros */
+    char why[256];       /* that in a sentence */
+    double range[2];     /* of finite values, as tc_mesh_report.scalar_range; lo > hi: none is finite */
+    double bounds[6];    /* as tc_mesh_report.bounds */
+    size_t source_cells; /* as tc_mesh_report.source_cells */
+    double time;         /* of the step; NAN: the file has no times */
+} tc_survey;
+
+/* Surveys steps of a file in one go: out [n_step] of step [n_step]; step NULL: n_step is 1, the step of options. A step that
+ * cannot be read is no error: its status tells.
+ * Errors: TC_E_FILE (nothing of the file can be read), TC_E_WORKER, TC_E_ARG. Cost: reading each step's points and values. */
+TC_API tc_status tc_mesh_survey(tc_survey *out, const int *step, size_t n_step, const char *path,
+                                const tc_read_options *options, const tc_log *log, tc_error *err);
+
 /* NULL for a mesh made from arrays. */
 TC_API const tc_source *tc_mesh_source(const tc_mesh *mesh);
 
@@ -264,7 +294,8 @@ TC_API tc_status tc_mesh_write_vtu(const tc_mesh *mesh, const char *path, tc_err
 typedef struct tc_transfer tc_transfer;
 
 typedef struct tc_transfer_options {
-    const char *color_map; /* name of a built-in map or a ParaView preset (.json, .xml); NULL: "Cool to Warm" */
+    const char *color_map; /* name of a built-in map, a ParaView preset (.json, .xml), or the text of one, which begins with
+                              { or [; NULL: "Cool to Warm" */
     const char *preset;    /* which map of a file that holds several; NULL: the first; refused of a built-in map */
     const char *opacity;   /* file, "S:A,S:A,…", "linear", "geom", "sigmoid"; NULL: the preset's own, else linear 0 to 0.3 */
     bool has_range;
@@ -312,10 +343,13 @@ typedef struct tc_camera {
     double clip_near, clip_far; /* only what lies between these distances before the eye's plane, along the view, is seen,
                                    in the mesh's unit; both 0: all that is before the eye, in
                                    parallel projection, too */
+    double window_center[2]; /* what is in the picture's middle, in halves of its width and height right of and above the
+                                direction of projection, as vtkCamera's WindowCenter: eyes of a stereo pair look past
+                                each other so */
 } tc_camera;
 
 /* Whole box in view from direction (from focal point to eye), as vtkRenderer::ResetCamera does. Sets all of the camera,
- * clip_near and clip_far to 0, but not `parallel`: that is kept as it is, so set it yourself in a new one.
+ * clip_near, clip_far and window_center to 0, but not `parallel`: that is kept as it is, so set it yourself in a new one.
  *   bounds [6], direction [3], up [3]; aspect = width / height. */
 TC_API void tc_camera_reset(tc_camera *camera, const double *bounds, const double *direction, const double *up,
                             double view_angle, double aspect);
@@ -324,54 +358,7 @@ TC_API void tc_camera_elevation(tc_camera *camera, double degrees);
 TC_API void tc_camera_roll(tc_camera *camera, double degrees);
 TC_API void tc_camera_zoom(tc_camera *camera, double factor);
 
-/* ------------------------------------------------------------------------------------------------------ image */
-
-/* Premultiplied float RGBA, row 0 at the top. */
-typedef struct tc_image {
-    int width, height;
-    float *rgba; /* [height][width][4] */
-} tc_image;
-
-typedef struct tc_text_pair {
-    const char *key, *value;
-} tc_text_pair;
-
-TC_API tc_status tc_image_create(tc_image **out, int width, int height, tc_error *err);
-TC_API void tc_image_destroy(tc_image **image);
-/* background over-composited in place: rgba premultiplied. */
-TC_API void tc_image_background(tc_image *image, const float *rgba);
-/* By extension png, exr, tif(f), jpg; "-": PNG to stdout. meta [n] may be NULL. Whole or not at all. */
-TC_API tc_status tc_image_write(const tc_image *image, const char *path, const tc_text_pair *meta, size_t n,
-                                const tc_log *log, tc_error *err);
-TC_API tc_status tc_image_read(tc_image **out, const char *path, tc_error *err);
-/* The text that a picture carries under a key of its metadata ("tetcast:" before it does not count), UTF-8, from malloc;
- * NULL: it carries none.
- * Errors: as tc_image_read; a PNG file that is cut short carries what is there. Cost: reads the file; of other formats as
- * tc_image_read. */
-TC_API tc_status tc_image_read_text(char **out, const char *path, const char *key, tc_error *err);
-
-/* Writes any number of pictures. PNG is encoded in this process; other formats by a helper program, which needs 0.2 s to
- * start and stays for the next ones. Not for two threads at a time. */
-typedef struct tc_image_writer tc_image_writer;
-/* Starts nothing. Errors: TC_E_MEMORY. */
-TC_API tc_status tc_image_writer_create(tc_image_writer **out, tc_error *err);
-/* Files named like path (a number may differ) are to come: starts the helper program if their format needs it, and
- * returns at once, so that its start passes while the caller does something else. Errors: TC_E_ARG (extension),
- * TC_E_WORKER; both are told again by tc_image_writer_save. */
-TC_API tc_status tc_image_writer_expect(tc_image_writer *writer, const char *path, tc_error *err);
-/* tc_image_write through it; a helper that died is started anew. */
-TC_API tc_status tc_image_writer_save(tc_image_writer *writer, const tc_image *image, const char *path,
-                                      const tc_text_pair *meta, size_t n, const tc_log *log, tc_error *err);
-TC_API void tc_image_writer_destroy(tc_image_writer **writer);
-
-typedef struct tc_compare_result {
-    double max_abs, mean_abs, p999_abs, rms; /* over channels; mean and rms over pixels covered in either image */
-    size_t pixels, covered, differing;       /* differing: a channel differs by more than 1/255 */
-    int worst_x, worst_y;
-} tc_compare_result;
-/* Errors: TC_E_ARG when sizes differ. */
-TC_API tc_status tc_image_compare(tc_compare_result *out, const tc_image *a, const tc_image *b, tc_error *err);
-
+#include "tetcast_image.h"
 #include "tetcast_look.h"
 #include "tetcast_figure.h"
 
@@ -430,6 +417,8 @@ TC_API void tc_renderer_destroy(tc_renderer **renderer);
 /* A picture's settings; zero-initialise, then tc_render_defaults. */
 typedef struct tc_render_options {
     int width, height;
+    int whole_width, whole_height; /* of the picture that this one is a part of, which camera is of; 0: it is whole */
+    int part_x, part_y;            /* the left upper pixel of the part in it, from its left upper one */
     tc_integrator integrator;
     int table_size[3];            /* s_front, s_back, length; 0: 128 128 256 */
     tc_table_format table_format;

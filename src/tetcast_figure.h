@@ -21,6 +21,8 @@ typedef enum tc_ink { TC_INK_AUTO = 0, TC_INK_DARK = 1, TC_INK_LIGHT = 2 } tc_in
 typedef struct tc_figure {
     const char *title; /* above, in the middle */
     tc_ink ink;
+    int whole_width, whole_height; /* of the picture that the image is a part of; 0: it is whole. Then ink must not be AUTO */
+    int part_x, part_y;            /* the image's left upper pixel in it, from its left upper one */
     double text_size; /* of letters, in pixels (their em); 0: 1/44 of the picture's height, at least 10 */
 
     tc_bar bar;

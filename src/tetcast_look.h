@@ -42,7 +42,13 @@ TC_API void tc_field_info(double range[2], tc_association *association, const ch
  *                    of these three the picture is the function's colour there, alpha 1; the function's opacity is not used;
  *                    where the ray meets no cell, or only cells whose values are not finite, it is transparent. AVERAGE of
  *                    a length of zero: transparent
- *   SURFACES         isosurfaces alone; the function's opacity is not used */
+ *   SURFACES         isosurfaces alone; the function's opacity is not used
+ *   DEPTH            no colours but numbers, of the place where what the density emitter's ray has gathered first has an
+ *                    opacity of depth_opacity (isosurfaces and geometry count): r is its distance from the eye's plane along
+ *                    the view (as of clip_near), g the scalar there (of geometry 0), b 0, a 1. All 0 where the ray stays
+ *                    clearer. In the part of a cell that reaches it, with transmittances T0 > T >= T1 before it, wanted and
+ *                    behind it, the place is at ln(T0/T) / ln(T0/T1) of its length (T1 = 0: at its beginning), the scalar
+ *                    linear between its ends. One ray a pixel; no light, no color_field */
 typedef enum tc_model {
     TC_MODEL_DENSITY_EMITTER = 0,
     TC_MODEL_EMISSION = 1,
@@ -52,6 +58,7 @@ typedef enum tc_model {
     TC_MODEL_XRAY = 5,
     TC_MODEL_MINIMUM = 6,
     TC_MODEL_AVERAGE = 7,
+    TC_MODEL_DEPTH = 8,
 } tc_model;
 
 /* The surface on which the scalar has this value, where a ray crosses it inside of a cell: between a cell's entry (scalar
@@ -130,6 +137,7 @@ typedef struct tc_geometry {
 
 typedef struct tc_look {
     tc_model model;
+    double depth_opacity; /* of DEPTH, 0 … 1; 0: 0.5 */
     int n_iso;
     const tc_iso *iso; /* [n_iso] values all different */
     tc_shade shade;

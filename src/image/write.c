@@ -251,11 +251,12 @@ tc_status tc_image_writer_write(tc_image_writer *writer, const tc_image *image, 
 }
 
 tc_status tc_image_writer_save(tc_image_writer *writer, const tc_image *image, const char *path,
-                               const tc_text_pair *meta, size_t n, const tc_log *log, tc_error *err)
+                               const tc_image_encoding *encoding, const tc_text_pair *meta, size_t n,
+                               const tc_log *log, tc_error *err)
 {
     if (!writer)
         return tc_fail(err, TC_E_ARG, "tc_image_writer_save: writer is NULL");
-    return tc_image_writer_write(writer, image, path, NULL, meta, n, log, err);
+    return tc_image_writer_write(writer, image, path, encoding, meta, n, log, err);
 }
 
 tc_status tc_image_write(const tc_image *image, const char *path, const tc_text_pair *meta, size_t n, const tc_log *log,

@@ -5,12 +5,6 @@
 
 #include "core/status.h"
 
-/* How a file holds its pixels; zero is the default of each format. */
-typedef struct tc_image_encoding {
-    int bits;    /* a channel; PNG: 8 (default) or 16; EXR: 32 (default) or 16 (half); TIFF: 32; JPEG: 8 */
-    int quality; /* JPEG: 1 to 100; 0: 95 */
-} tc_image_encoding;
-
 /* Pairs read from a file; owned. */
 typedef struct tc_image_meta {
     size_t n;

@@ -623,7 +623,7 @@ static void a_png_starts_a_helper(void **state)
         tc_image_writer *own = NULL;
         int pid, bad = tc_image_writer_create(&own, NULL) != TC_OK;
         bad |= (tc_image_writer_expect(own, png, NULL) != TC_OK) << 1;
-        bad |= (tc_image_writer_save(own, image, png, NULL, 0, NULL, NULL) != TC_OK) << 2;
+        bad |= (tc_image_writer_save(own, image, png, NULL, NULL, 0, NULL, NULL) != TC_OK) << 2;
         bad |= (first_child(&pid) == 1) << 3;
         bad |= (tc_image_writer_expect(own, exr, NULL) != TC_OK) << 4;
         bad |= (first_child(&pid) == 0) << 5;

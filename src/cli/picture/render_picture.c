@@ -119,7 +119,7 @@ static int tc_picture_write(tc_render_run *run, tc_frames *frames, tc_talk *talk
     tc_status status = tc_render_figure(&figure, run) ? tc_figure_draw(run->image, &figure, &talk->log, &err) : TC_OK;
     double start = tc_talk_clock_s();
     if (status == TC_OK)
-        status = frames->writer ? tc_image_writer_save(frames->writer, run->image, options->output, meta.pair, meta.n,
+        status = frames->writer ? tc_image_writer_save(frames->writer, run->image, options->output, NULL, meta.pair, meta.n,
                                                        &talk->log, &err)
                                 : tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
     run->ms_write = 1e3 * (tc_talk_clock_s() - start);
