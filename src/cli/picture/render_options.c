@@ -180,6 +180,7 @@ const tc_option tc_render_option[] = {
     {"--output", 'o', "FILE", "png, exr, tif or jpg by extension; - for PNG on stdout; default INPUT's name + .png, here; several steps: {step:04d} or {time:.3f} in it, else _0012 before the extension", TC_OPTION_TEXT, AT(output)},
     {"--size", 0, "WxH", "pixels; default 512x512", TC_OPTION_CUSTOM, AT(size), .parse = tc_size_parse},
     {"--background", 0, "R,G,B[,A]|transparent", "0 to 1 each; default transparent", TC_OPTION_CUSTOM, AT(background), .parse = tc_background_parse},
+    TC_OUTPUT_ROWS(tc_render_command, out),
     {.help = "Camera (default: the whole mesh in view from +z)"},
     {"--camera-position", 0, "X,Y,Z", "the eye", TC_OPTION_REALS, AT(position), HAS(has_position), .n = 3},
     {"--focal-point", 0, "X,Y,Z", "where it looks; default the mesh's centre", TC_OPTION_REALS, AT(focal_point), HAS(has_focal_point), .n = 3},
@@ -383,6 +384,13 @@ static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
         talk->from = tc_scene_place(&out->given, file[i].option);
         if (file[i].path && file[i].picture)
             code = tc_output_kind_check(file[i].path, talk);
+        char why[160] = "";
+        if (code < 0 && i == 0 && file[i].path)
+            tc_output_wrong(why, &out->out, file[i].path);
+        if (*why) {
+            tc_talk_error(talk, "%s: %s", file[i].path, why);
+            code = TC_EXIT_USAGE;
+        }
         if (code < 0 && file[i].path && !(out->steps.there && file[i].picture)) /* names of steps: render_sequence.c */
             code = tc_output_check(file[i].path, talk);
         code = tc_blame_end(code, talk);
@@ -456,6 +464,7 @@ static void tc_render_command_defaults(tc_render_command *out)
     tc_render_defaults(&defaults);
     *out = (tc_render_command){
         .size = {512, 512},
+        .out = {.png_level = -1},
         .view_up = {0, 1, 0},
         .view_angle = 30,
         .zoom = 1,

@@ -4,6 +4,7 @@
 
 #include "cli/input.h"
 #include "cli/picture/look_options.h"
+#include "cli/picture/output_options.h"
 #include "cli/scene/scene_file.h"
 #include "cli/picture/step_names.h"
 
@@ -31,6 +32,7 @@ typedef struct tc_render_command {
     tc_step_range steps; /* --step FROM:TO; source has the first of them then, if it was given */
     tc_size size;
     tc_background background;
+    tc_output_options out;
 
     double position[3], focal_point[3], view_up[3], view_angle, parallel_scale;
     bool has_position, has_focal_point, has_view_up, has_parallel_scale, parallel;

@@ -2,9 +2,9 @@
 #include "cli/picture/render_picture.h"
 #include "cli/picture/look_build.h"
 #include "cli/picture/render_choose.h"
-#include "cli/picture/render_figure.h"
 #include "cli/picture/render_verify.h"
 #include "cli/picture/render_view.h"
+#include "cli/picture/render_write.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -109,22 +109,16 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
 
 static int tc_picture_write(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
 {
-    const tc_render_command *options = run->options;
     tc_error err = {0};
-    tc_meta meta;
-    tc_meta_make(&meta, run, argc, argv);
-    if (options->background.there)
-        tc_image_background(run->image, options->background.rgba);
-    tc_figure figure;
-    tc_status status = tc_render_figure(&figure, run) ? tc_figure_draw(run->image, &figure, &talk->log, &err) : TC_OK;
+    tc_picture_file file = {0};
+    int code = tc_picture_dress(run, talk);
+    if (code < 0)
+        code = tc_picture_file_make(&file, run, run->options->output, argc, argv, talk);
     double start = tc_talk_clock_s();
-    if (status == TC_OK)
-        status = frames->writer ? tc_image_writer_save(frames->writer, run->image, options->output, NULL, meta.pair, meta.n,
-                                                       &talk->log, &err)
-                                : tc_image_write(run->image, options->output, meta.pair, meta.n, &talk->log, &err);
+    tc_status status = code < 0 ? tc_picture_file_write(&file, frames->writer, &talk->log, &err) : TC_OK;
     run->ms_write = 1e3 * (tc_talk_clock_s() - start);
-    tc_meta_finish(&meta);
-    return status ? tc_talk_status(talk, status, &err) : -1;
+    tc_picture_file_finish(&file);
+    return status ? tc_talk_status(talk, status, &err) : code;
 }
 
 /* The largest channel, of light without opacity too. */
