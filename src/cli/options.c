@@ -264,7 +264,7 @@ typedef struct tc_table_of {
     const tc_option *option;
     size_t n, at;
 } tc_table_of;
-enum { TC_TABLES = 3 }; /* the last: options of every command */
+enum { TC_TABLES = 4 }; /* the last: options of every command */
 
 static tc_table_of tc_option_table(const tc_command *command, int i)
 {
@@ -273,6 +273,8 @@ static tc_table_of tc_option_table(const tc_command *command, int i)
         return (tc_table_of){command->option, command->n_option, 0};
     case 1:
         return (tc_table_of){command->also, command->n_also, command->also_at};
+    case 2:
+        return (tc_table_of){command->own, command->n_own, 0};
     default:
         return (tc_table_of){tc_common_option, TC_N_COMMON, 0};
     }
@@ -497,6 +499,8 @@ void tc_command_help(const tc_command *command)
         putchar('\n');
         tc_help_wrap(command->about, 0);
     }
+    for (size_t i = 0; i < command->n_own; i++)
+        tc_help_option(&command->own[i]);
     for (size_t i = 0; i < command->n_option; i++) {
         tc_help_option(&command->option[i]);
         for (size_t k = 0; k < command->n_also && command->option[i].kind == TC_OPTION_ALSO; k++)

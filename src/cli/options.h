@@ -67,7 +67,9 @@ typedef struct tc_command {
     const char *about;                   /* more, before the options; may be NULL */
     const tc_option *option;
     size_t n_option;
-    const tc_option *also; /* a second table, of the struct that lies at also_at in the command's; NULL: none */
+    const tc_option *own; /* a table before option, of the same struct: what this command has beside another one's options */
+    size_t n_own;
+    const tc_option *also; /* a further table, of the struct that lies at also_at in the command's; NULL: none */
     size_t n_also, also_at;
     size_t given;        /* offset of a tc_given_list in the command's struct, plus 1, that is filled; 0: none */
     int least, most;     /* number of arguments that are no options */

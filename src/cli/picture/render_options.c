@@ -508,12 +508,14 @@ static bool tc_is_overridden(const tc_render_command *line, const tc_scene *scen
 }
 
 /* INPUT is a scene: its options, then those of the command line over them. */
-static int tc_scene_take(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
+static int tc_scene_take(tc_render_command *out, const tc_scene_at *at, tc_talk *talk, const tc_command *command,
+                         int argc, char **argv)
 {
     tc_render_command line = *out;
     int n_argument, code;
     tc_render_command_defaults(out);
-    code = tc_scene_read(&out->scene, line.input, command, talk);
+    code = at ? tc_scene_from_json(&out->scene, at->json, at->element, at->text, line.input, at->folder, command, talk)
+              : tc_scene_read(&out->scene, line.input, command, talk);
     for (size_t i = 0; i < out->scene.n && code < 0; i++) {
         const tc_scene_item *item = &out->scene.item[i];
         if (!tc_is_overridden(&line, &out->scene, item->option->name))
@@ -555,18 +557,24 @@ static void tc_scene_blame(const tc_render_command *out, tc_talk *talk)
     const tc_scene_key *key = tc_scene_keys(&n_key);
     talk->from = out->scene_path;
     for (size_t k = 0; k < n_key; k++)
-        if (key[k].kept && strcmp(key[k].section, "output") != 0 && tc_is_of_line(&out->given, key[k].option))
+        if (key[k].role == TC_KEY_PICTURE && strcmp(key[k].section, "output") != 0 && tc_is_of_line(&out->given, key[k].option))
             talk->from = NULL;
 }
 
 int tc_picture_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv)
+{
+    return tc_picture_command_take(out, NULL, talk, command, argc, argv);
+}
+
+int tc_picture_command_take(tc_render_command *out, const tc_scene_at *at, tc_talk *talk, const tc_command *command,
+                            int argc, char **argv)
 {
     int n_argument;
     talk->from = NULL;
     tc_render_command_defaults(out);
     int code = tc_options_parse(out, &out->input, &n_argument, talk, command, argc, argv);
     if (code < 0 && tc_input_is_scene(out->input))
-        code = tc_scene_take(out, talk, command, argc, argv);
+        code = tc_scene_take(out, at, talk, command, argc, argv);
     if (code >= 0)
         return code;
     out->gl = tc_gl_choice[out->gl_choice].name;

@@ -87,6 +87,15 @@ extern const size_t tc_n_render_option;
 int tc_render_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv);
 /* The same for a command that writes no picture: output, error_image and stats are not looked at. */
 int tc_picture_command_read(tc_render_command *out, tc_talk *talk, const tc_command *command, int argc, char **argv);
+/* A scene that stands in memory, of the file that is INPUT; text is the whole file's. */
+typedef struct tc_scene_at {
+    json_t *json;
+    int element; /* of the text's list of transfer functions; -1: it has none */
+    const char *text, *folder;
+} tc_scene_at;
+/* The same for a scene that is not read from its file; at NULL: it is. */
+int tc_picture_command_take(tc_render_command *out, const tc_scene_at *at, tc_talk *talk, const tc_command *command,
+                            int argc, char **argv);
 void tc_render_command_finish(tc_render_command *command);
 
 /* Do both names lead to one file, there or to be written? */

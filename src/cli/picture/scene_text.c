@@ -128,7 +128,7 @@ static void tc_given_put(json_t *scene, const tc_render_run *run)
     const tc_given_list *given = &run->options->given;
     for (size_t k = 0; k < n_key; k++) {
         json_t *list = NULL;
-        if (!key[k].option || !key[k].kept || tc_is_found(run, &key[k]))
+        if (!key[k].option || key[k].role != TC_KEY_PICTURE || tc_is_found(run, &key[k]))
             continue;
         for (size_t i = 0; i < given->n; i++) {
             const tc_given *one = &given->item[i];

@@ -17,102 +17,110 @@ enum { TC_SCENE_BYTES = 16 << 20 };
 
 /* clang-format off */
 static const tc_scene_key tc_key[] = {
-    {"", "field", "--field", TC_PATH_NONE, true},
-    {"", "cell_data", "--cell-data", TC_PATH_NONE, true},
-    {"", "point_data", "--point-data", TC_PATH_NONE, true},
-    {"", "time", "--time", TC_PATH_NONE, true},
-    {"", "step", "--step", TC_PATH_NONE, true},
-    {"", "refine", "--refine", TC_PATH_NONE, true},
-    {"", "reentry", "--reentry", TC_PATH_NONE, true},
-    {"", "seed", "--seed", TC_PATH_NONE, true},
-    {"", "idle_limit", "--idle-limit", TC_PATH_NONE, false},
-    {"", "cache", "--cache", TC_PATH_NONE, false},
-    {"", "cache_file", "--cache-file", TC_PATH_FILE, false},
-    {"camera", "position", "--camera-position", TC_PATH_NONE, true},
-    {"camera", "focal_point", "--focal-point", TC_PATH_NONE, true},
-    {"camera", "view_up", "--view-up", TC_PATH_NONE, true},
-    {"camera", "view_angle", "--view-angle", TC_PATH_NONE, true},
-    {"camera", "parallel", "--parallel", TC_PATH_NONE, true},
-    {"camera", "parallel_scale", "--parallel-scale", TC_PATH_NONE, true},
-    {"camera", "azimuth", "--azimuth", TC_PATH_NONE, true},
-    {"camera", "elevation", "--elevation", TC_PATH_NONE, true},
-    {"camera", "roll", "--roll", TC_PATH_NONE, true},
-    {"camera", "zoom", "--zoom", TC_PATH_NONE, true},
-    {"camera", "clipping_range", "--clipping-range", TC_PATH_NONE, true},
-    {"transfer_function", "color_map", "--color-map", TC_PATH_MAYBE, true},
-    {"transfer_function", "preset", "--preset", TC_PATH_NONE, true},
-    {"transfer_function", "opacity", "--opacity", TC_PATH_MAYBE, true},
-    {"transfer_function", "range", "--range", TC_PATH_NONE, true},
-    {"transfer_function", "unit_distance", "--unit-distance", TC_PATH_NONE, true},
-    {"transfer_function", "nan_color", "--nan-color", TC_PATH_NONE, true},
-    {"transfer_function", "log", "--log", TC_PATH_NONE, true},
-    {"effects", "model", "--model", TC_PATH_NONE, true},
-    {"effects", "iso", "--iso", TC_PATH_NONE, true},
-    {"effects", "iso_color", "--iso-color", TC_PATH_NONE, true},
-    {"effects", "iso_opacity", "--iso-opacity", TC_PATH_NONE, true},
-    {"effects", "color_field", "--color-field", TC_PATH_NONE, true},
-    {"effects", "color_range", "--color-range", TC_PATH_NONE, true},
-    {"effects", "categories", "--categories", TC_PATH_MAYBE, true},
-    {"effects", "shade", "--shade", TC_PATH_NONE, true},
-    {"effects", "light", "--light", TC_PATH_NONE, true},
-    {"effects", "ambient", "--ambient", TC_PATH_NONE, true},
-    {"effects", "diffuse", "--diffuse", TC_PATH_NONE, true},
-    {"effects", "specular", "--specular", TC_PATH_NONE, true},
-    {"effects", "specular_power", "--specular-power", TC_PATH_NONE, true},
-    {"effects", "one_sided", "--one-sided", TC_PATH_NONE, true},
-    {"effects", "shade_magnitude", "--shade-magnitude", TC_PATH_NONE, true},
-    {"effects", "clip", "--clip", TC_PATH_NONE, true},
-    {"effects", "clip_box", "--clip-box", TC_PATH_NONE, true},
-    {"effects", "select", "--select", TC_PATH_NONE, true},
-    {"effects", "blocks", "--blocks", TC_PATH_NONE, true},
-    {"effects", "outline", "--outline", TC_PATH_NONE, true},
-    {"effects", "wireframe", "--wireframe", TC_PATH_NONE, true},
-    {"effects", "surface", "--surface", TC_PATH_NONE, true},
-    {"effects", "geometry", "--geometry", TC_PATH_OPACITY, true},
-    {"effects", "geometry_color", "--geometry-color", TC_PATH_NONE, true},
-    {"effects", "line_color", "--line-color", TC_PATH_NONE, true},
-    {"effects", "surface_color", "--surface-color", TC_PATH_NONE, true},
-    {"effects", "title", "--title", TC_PATH_NONE, true},
-    {"effects", "color_bar", "--color-bar", TC_PATH_NONE, true},
-    {"effects", "color_bar_place", "--color-bar-place", TC_PATH_NONE, true},
-    {"effects", "color_bar_opacity", "--color-bar-opacity", TC_PATH_NONE, true},
-    {"effects", "axes", "--axes", TC_PATH_NONE, true},
-    {"effects", "triad", "--triad", TC_PATH_NONE, true},
-    {"effects", "text_size", "--text-size", TC_PATH_NONE, true},
-    {"method", "integrator", "--integrator", TC_PATH_NONE, true},
-    {"method", "table_size", "--table-size", TC_PATH_NONE, true},
-    {"method", "table_format", "--table-format", TC_PATH_NONE, true},
-    {"method", "integral_order", "--integral-order", TC_PATH_NONE, true},
-    {"method", "integral_split", "--integral-split", TC_PATH_NONE, true},
-    {"method", "opacity_stop", "--opacity-stop", TC_PATH_NONE, true},
-    {"method", "samples", "--samples", TC_PATH_NONE, true},
-    {"method", "state_format", "--state-format", TC_PATH_NONE, true},
-    {"method", "gl", "--gl", TC_PATH_NONE, true},
-    {"method", "driver", "--driver", TC_PATH_NONE, true},
-    {"method", "stepper", "--stepper", TC_PATH_NONE, true},
-    {"method", "steps_per_pass", "--steps-per-pass", TC_PATH_NONE, true},
-    {"method", "z_update_every", "--z-update-every", TC_PATH_NONE, true},
-    {"method", "threads", "--threads", TC_PATH_NONE, false},
-    {"method", "error", "--error", TC_PATH_NONE, false},
-    {"method", "frame_time", "--frame-time", TC_PATH_NONE, false},
-    {"method", "no_cache", "--no-cache", TC_PATH_NONE, false},
-    {"output", "file", "--output", TC_PATH_FILE, false},
-    {"output", "size", "--size", TC_PATH_NONE, true},
-    {"output", "background", "--background", TC_PATH_NONE, true},
-    {"output", "png_level", "--png-level", TC_PATH_NONE, true},
-    {"output", "jpeg_quality", "--jpeg-quality", TC_PATH_NONE, true},
-    {"output", "bits", "--bits", TC_PATH_NONE, true},
-    {"output", "depth", "--depth", TC_PATH_NONE, false},
-    {"output", "value", "--value", TC_PATH_NONE, false},
-    {"output", "verify", "--verify", TC_PATH_NONE, false},
-    {"output", "error_image", "--error-image", TC_PATH_FILE, false},
-    {"output", "repeat", "--repeat", TC_PATH_NONE, false},
-    {"output", "count", "--count", TC_PATH_NONE, false},
-    {"output", "audit", "--audit", TC_PATH_NONE, false},
-    {"output", "stats", "--stats", TC_PATH_FILE, false},
-    {"output", "cinema", NULL, TC_PATH_NONE, false},
-    {"", "shell", NULL, TC_PATH_NONE, false},
-    {"", "views", NULL, TC_PATH_NONE, false},
+    {"", "field", "--field", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"", "cell_data", "--cell-data", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"", "point_data", "--point-data", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"", "time", "--time", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"", "step", "--step", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"", "refine", "--refine", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"", "reentry", "--reentry", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"", "seed", "--seed", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"", "idle_limit", "--idle-limit", TC_PATH_NONE, TC_KEY_RUN},
+    {"", "cache", "--cache", TC_PATH_NONE, TC_KEY_RUN},
+    {"", "cache_file", "--cache-file", TC_PATH_FILE, TC_KEY_RUN},
+    {"camera", "position", "--camera-position", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "focal_point", "--focal-point", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "view_up", "--view-up", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "view_angle", "--view-angle", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "parallel", "--parallel", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "parallel_scale", "--parallel-scale", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "azimuth", "--azimuth", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "elevation", "--elevation", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "roll", "--roll", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "zoom", "--zoom", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"camera", "clipping_range", "--clipping-range", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"transfer_function", "color_map", "--color-map", TC_PATH_MAYBE, TC_KEY_PICTURE},
+    {"transfer_function", "preset", "--preset", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"transfer_function", "opacity", "--opacity", TC_PATH_MAYBE, TC_KEY_PICTURE},
+    {"transfer_function", "range", "--range", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"transfer_function", "unit_distance", "--unit-distance", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"transfer_function", "nan_color", "--nan-color", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"transfer_function", "log", "--log", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "model", "--model", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "iso", "--iso", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "iso_color", "--iso-color", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "iso_opacity", "--iso-opacity", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "color_field", "--color-field", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "color_range", "--color-range", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "categories", "--categories", TC_PATH_MAYBE, TC_KEY_PICTURE},
+    {"effects", "shade", "--shade", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "light", "--light", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "ambient", "--ambient", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "diffuse", "--diffuse", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "specular", "--specular", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "specular_power", "--specular-power", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "one_sided", "--one-sided", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "shade_magnitude", "--shade-magnitude", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "clip", "--clip", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "clip_box", "--clip-box", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "select", "--select", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "blocks", "--blocks", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "outline", "--outline", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "wireframe", "--wireframe", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "surface", "--surface", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "geometry", "--geometry", TC_PATH_OPACITY, TC_KEY_PICTURE},
+    {"effects", "geometry_color", "--geometry-color", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "line_color", "--line-color", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "surface_color", "--surface-color", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "title", "--title", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "color_bar", "--color-bar", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "color_bar_place", "--color-bar-place", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "color_bar_opacity", "--color-bar-opacity", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "axes", "--axes", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "triad", "--triad", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"effects", "text_size", "--text-size", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "integrator", "--integrator", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "table_size", "--table-size", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "table_format", "--table-format", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "integral_order", "--integral-order", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "integral_split", "--integral-split", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "opacity_stop", "--opacity-stop", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "samples", "--samples", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "state_format", "--state-format", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "gl", "--gl", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "driver", "--driver", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "stepper", "--stepper", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "steps_per_pass", "--steps-per-pass", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "z_update_every", "--z-update-every", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"method", "threads", "--threads", TC_PATH_NONE, TC_KEY_RUN},
+    {"method", "error", "--error", TC_PATH_NONE, TC_KEY_RUN},
+    {"method", "frame_time", "--frame-time", TC_PATH_NONE, TC_KEY_RUN},
+    {"method", "no_cache", "--no-cache", TC_PATH_NONE, TC_KEY_RUN},
+    {"output", "file", "--output", TC_PATH_FILE, TC_KEY_RUN},
+    {"output", "size", "--size", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"output", "background", "--background", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"output", "png_level", "--png-level", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"output", "jpeg_quality", "--jpeg-quality", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"output", "bits", "--bits", TC_PATH_NONE, TC_KEY_PICTURE},
+    {"output", "depth", "--depth", TC_PATH_NONE, TC_KEY_RUN},
+    {"output", "value", "--value", TC_PATH_NONE, TC_KEY_RUN},
+    {"output", "verify", "--verify", TC_PATH_NONE, TC_KEY_RUN},
+    {"output", "error_image", "--error-image", TC_PATH_FILE, TC_KEY_RUN},
+    {"output", "repeat", "--repeat", TC_PATH_NONE, TC_KEY_RUN},
+    {"output", "count", "--count", TC_PATH_NONE, TC_KEY_RUN},
+    {"output", "audit", "--audit", TC_PATH_NONE, TC_KEY_RUN},
+    {"output", "stats", "--stats", TC_PATH_FILE, TC_KEY_RUN},
+    {"", "frames", "--frames", TC_PATH_NONE, TC_KEY_BATCH},
+    {"", "memory", "--memory", TC_PATH_NONE, TC_KEY_BATCH},
+    {"", "views", "--views", TC_PATH_NONE, TC_KEY_BATCH},
+    {"", "times", "--times", TC_PATH_NONE, TC_KEY_BATCH},
+    {"camera", "over", "--camera-over", TC_PATH_NONE, TC_KEY_BATCH},
+    {"transfer_function", "range_over", "--range-over", TC_PATH_NONE, TC_KEY_BATCH},
+    {"transfer_function", "unit_over", "--unit-over", TC_PATH_NONE, TC_KEY_BATCH},
+    {"output", "cinema", "--cinema", TC_PATH_NONE, TC_KEY_BATCH},
+    {"output", "video", "--video", TC_PATH_FILE, TC_KEY_BATCH},
+    {"output", "fps", "--fps", TC_PATH_NONE, TC_KEY_BATCH},
+    {"", "shell", NULL, TC_PATH_NONE, TC_KEY_RUN},
 };
 /* clang-format on */
 enum { TC_N_KEY = sizeof tc_key / sizeof *tc_key };
@@ -127,6 +135,7 @@ const tc_scene_key *tc_scene_keys(size_t *n)
 typedef struct tc_scene_reader {
     tc_scene *out;
     const char *text, *name, *folder;
+    int element; /* of the list of transfer functions; -1: there is one */
     const tc_command *command;
     tc_talk *talk;
 } tc_scene_reader;
@@ -139,10 +148,20 @@ static int tc_out_of_memory(tc_talk *talk)
 
 /* ---------------------------------------------------------------------------------------------------------- names */
 
+/* A section as the file has it: "transfer_function[1]" where there is a list of them. */
+static const char *tc_section_name(char room[64], const tc_scene_reader *r, const char *section)
+{
+    if (r->element < 0 || strcmp(section, "transfer_function") != 0)
+        return section;
+    snprintf(room, 64, "%s[%d]", section, r->element);
+    return room;
+}
+
 /* The place of a key as errors name it; the caller frees it. */
 static char *tc_called(const tc_scene_reader *r, const char *section, const char *key)
 {
-    char *text = NULL;
+    char *text = NULL, room[64];
+    section = tc_section_name(room, r, section);
     int line = tc_json_line(r->text, section, key);
     if (asprintf(&text, "%s:%d: %s%s%s", r->name, line, section, *section ? "." : "", key) < 0)
         return NULL;
@@ -169,7 +188,9 @@ static int tc_refuse_key(const tc_scene_reader *r, const char *section, const ch
 {
     tc_nearest search = {.name = key};
     const char *elsewhere = NULL;
-    int line = tc_json_line(r->text, section, key);
+    char room[64];
+    const char *shown = tc_section_name(room, r, section);
+    int line = tc_json_line(r->text, shown, key);
     for (size_t i = 0; i < TC_N_KEY; i++) {
         const tc_scene_key *k = &tc_key[i];
         if (!strcmp(k->section, section)) {
@@ -185,10 +206,10 @@ static int tc_refuse_key(const tc_scene_reader *r, const char *section, const ch
         tc_nearest_offer(&search, "data");
     if (elsewhere)
         tc_talk_error(r->talk, "%s:%d: %s has no key '%s': it belongs into %s", r->name, line,
-                      *section ? section : "the scene", key, elsewhere);
+                      *section ? shown : "the scene", key, elsewhere);
     else
         tc_talk_error(r->talk, "%s:%d: %s has no key '%s'; the nearest is '%s'", r->name, line,
-                      *section ? section : "the scene", key, search.best);
+                      *section ? shown : "the scene", key, search.best);
     return TC_EXIT_FAILED;
 }
 
@@ -404,6 +425,17 @@ static int tc_refuse_type(const tc_scene_reader *r, const char *section, const c
     return TC_EXIT_FAILED;
 }
 
+/* What stands for several pictures, where one is made. */
+static int tc_refuse_many(const tc_scene_reader *r, const char *section, const char *key)
+{
+    char *called = tc_called(r, section, key);
+    if (!called)
+        return tc_out_of_memory(r->talk);
+    tc_talk_error(r->talk, "%s stands for several pictures, which tetcast batch makes: use that, or leave it out", called);
+    free(called);
+    return TC_EXIT_FAILED;
+}
+
 static int tc_option_take(const tc_scene_reader *r, const tc_scene_key *k, const json_t *value)
 {
     char *called = NULL;
@@ -415,6 +447,10 @@ static int tc_option_take(const tc_scene_reader *r, const tc_scene_key *k, const
         return called ? TC_EXIT_FAILED : tc_out_of_memory(r->talk);
     }
     const tc_option *option = tc_command_option(r->command, k->option);
+    if (!option && k->role == TC_KEY_BATCH && strcmp(k->key, "views") != 0)
+        return -1; /* a scene of many pictures may be rendered as one */
+    if (!option && k->role == TC_KEY_BATCH)
+        return tc_refuse_many(r, k->section, k->key);
     if (!option)
         return tc_refuse_key(r, k->section, k->key);
     if (!tc_type_fits(option, value))
@@ -444,6 +480,8 @@ static int tc_option_take(const tc_scene_reader *r, const tc_scene_key *k, const
 static int tc_data_take(const tc_scene_reader *r, const json_t *value)
 {
     const char *data = json_string_value(value);
+    if (json_is_array(value))
+        return tc_refuse_many(r, "", "data");
     if (!data || !*data)
         return tc_refuse_type(r, "", "data", "the name of a file, or synth:NAME[:CELLS]", value);
     r->out->data = !strncmp(data, "synth:", 6) ? strdup(data) : tc_path_from(r->folder, data);
@@ -464,6 +502,8 @@ static int tc_section_take(const tc_scene_reader *r, const char *section, json_t
             code = tc_refuse_key(r, section, key);
         else if (!strcmp(key, "data"))
             code = tc_data_take(r, value);
+        else if (json_is_array(value) && !strcmp(key, "transfer_function"))
+            code = tc_refuse_many(r, "", key);
         else if (!json_is_object(value))
             code = tc_refuse_type(r, "", key, "an object {\"key\": value, …}", value);
         else
@@ -476,28 +516,41 @@ static int tc_section_take(const tc_scene_reader *r, const char *section, json_t
 
 /* ---------------------------------------------------------------------------------------------------------- whole */
 
-int tc_scene_parse(tc_scene *out, const char *text, const char *name, const char *folder, const tc_command *command,
-                   tc_talk *talk)
+int tc_scene_from_json(tc_scene *out, json_t *json, int element, const char *text, const char *name, const char *folder,
+                  const tc_command *command, tc_talk *talk)
 {
-    const tc_scene_reader r = {out, text, name, folder, command, talk};
-    json_error_t error;
+    const tc_scene_reader r = {out, text, name, folder, element, command, talk};
     *out = (tc_scene){0};
+    int code = tc_section_take(&r, "", json);
+    if (code >= 0)
+        tc_scene_finish(out);
+    return code;
+}
+
+/* The object in a text; NULL after an error was printed. */
+static json_t *tc_object_load(const char *text, const char *name, tc_talk *talk)
+{
+    json_error_t error;
     const char *from = strncmp(text, "\xef\xbb\xbf", 3) ? text : text + 3;
     json_t *json = json_loads(from, JSON_REJECT_DUPLICATES, &error);
     if (!json) {
         tc_talk_error(talk, "%s:%d: this is no JSON: %s", name, error.line, error.text);
-        return TC_EXIT_FAILED;
+        return NULL;
     }
-    int code = -1;
-    if (json_is_object(json)) {
-        code = tc_section_take(&r, "", json);
-    } else {
-        tc_talk_error(talk, "%s:1: a scene is an object {\"data\": …}, not %s", name, tc_type_name(json));
-        code = TC_EXIT_FAILED;
-    }
+    if (json_is_object(json))
+        return json;
+    tc_talk_error(talk, "%s:1: a scene is an object {\"data\": …}, not %s", name, tc_type_name(json));
     json_decref(json);
-    if (code >= 0)
-        tc_scene_finish(out);
+    return NULL;
+}
+
+int tc_scene_parse(tc_scene *out, const char *text, const char *name, const char *folder, const tc_command *command,
+                   tc_talk *talk)
+{
+    *out = (tc_scene){0};
+    json_t *json = tc_object_load(text, name, talk);
+    int code = json ? tc_scene_from_json(out, json, -1, text, name, folder, command, talk) : TC_EXIT_FAILED;
+    json_decref(json);
     return code;
 }
 
@@ -562,16 +615,35 @@ static char *tc_picture_scene(const char *path, tc_talk *talk)
     return text;
 }
 
+int tc_scene_load(json_t **json, char **text, const char *path, tc_talk *talk)
+{
+    *text = tc_input_is_picture(path) ? tc_picture_scene(path, talk) : tc_text_read(path, talk);
+    *json = *text ? tc_object_load(*text, path, talk) : NULL;
+    if (*json)
+        return -1;
+    free(*text);
+    *text = NULL;
+    return TC_EXIT_FAILED;
+}
+
+bool tc_scene_folder(char **folder, const char *path)
+{
+    const char *slash = tc_input_is_picture(path) ? NULL : strrchr(path, '/');
+    *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : NULL;
+    return !slash || *folder;
+}
+
 int tc_scene_read(tc_scene *out, const char *path, const tc_command *command, tc_talk *talk)
 {
-    const bool picture = tc_input_is_picture(path);
+    json_t *json = NULL;
+    char *text = NULL, *folder = NULL;
     *out = (tc_scene){0};
-    char *text = picture ? tc_picture_scene(path, talk) : tc_text_read(path, talk);
-    if (!text)
-        return TC_EXIT_FAILED;
-    const char *slash = picture ? NULL : strrchr(path, '/');
-    char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : NULL;
-    int code = slash && !folder ? tc_out_of_memory(talk) : tc_scene_parse(out, text, path, folder, command, talk);
+    int code = tc_scene_folder(&folder, path) ? -1 : tc_out_of_memory(talk);
+    if (code < 0)
+        code = tc_scene_load(&json, &text, path, talk);
+    if (code < 0)
+        code = tc_scene_from_json(out, json, -1, text, path, folder, command, talk);
+    json_decref(json);
     free(folder);
     free(text);
     return code;

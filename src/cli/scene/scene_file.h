@@ -14,13 +14,20 @@ typedef enum tc_scene_path {
     TC_PATH_OPACITY /* FILE[,OPACITY] */
 } tc_scene_path;
 
+/* What a key is about. */
+typedef enum tc_scene_role {
+    TC_KEY_RUN = 0,     /* how a run goes */
+    TC_KEY_PICTURE = 1, /* it makes the picture what it is, and goes into its metadata */
+    TC_KEY_BATCH = 2    /* of `batch` alone: other commands pass it over */
+} tc_scene_role;
+
 /* One key of a scene file. */
 typedef struct tc_scene_key {
     const char *section; /* "camera"; "": the scene itself */
     const char *key;     /* "position" */
     const char *option;  /* "--camera-position"; NULL: not in this version */
     tc_scene_path path;
-    bool kept; /* it makes the picture what it is, and goes into its metadata */
+    tc_scene_role role;
 } tc_scene_key;
 
 /* All keys but "data"; *n gets their count. Static memory. */
@@ -43,6 +50,14 @@ typedef struct tc_scene {
  * current one. -1, or the exit code of an error that was printed: it names line, key and the nearest key. */
 int tc_scene_parse(tc_scene *out, const char *text, const char *name, const char *folder, const tc_command *command,
                    tc_talk *talk);
+/* The text of a scene's file, from malloc, as an object in *json: JSON, or a picture that carries one. The same codes. */
+int tc_scene_load(json_t **json, char **text, const char *path, tc_talk *talk);
+/* The folder that a scene's paths lead from, from malloc; NULL: the current one, as of a picture. False: memory ran out. */
+bool tc_scene_folder(char **folder, const char *path);
+/* As tc_scene_parse, of an object; text is the file's. element: of the text's list of transfer functions the one that is in
+ * json; -1: it is no list. */
+int tc_scene_from_json(tc_scene *out, json_t *json, int element, const char *text, const char *name, const char *folder,
+                  const tc_command *command, tc_talk *talk);
 /* The scene in a file: JSON, or a picture that carries one. The same codes. */
 int tc_scene_read(tc_scene *out, const char *path, const tc_command *command, tc_talk *talk);
 void tc_scene_finish(tc_scene *scene);

@@ -3,6 +3,8 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct tc_place {
@@ -78,13 +80,40 @@ static bool tc_find(tc_place *p, int *line, const char *key)
     }
 }
 
+/* Moves from an array's beginning to its element number i. */
+static bool tc_find_element(tc_place *p, int *line, int i)
+{
+    tc_space(p);
+    if (*p->at != '[')
+        return false;
+    for (tc_step(p); i >= 0; i--) {
+        tc_space(p);
+        if (i == 0)
+            break;
+        tc_value(p);
+        tc_space(p);
+        if (*p->at != ',')
+            return false;
+        tc_step(p);
+    }
+    *line = p->line;
+    return true;
+}
+
 int tc_json_line(const char *text, const char *section, const char *key)
 {
     tc_place p = {text, 1};
-    int line = 1;
+    int line = 1, element = -1;
+    char name[64];
+    const char *bracket = strchr(section, '[');
     if (!strncmp(text, "\xef\xbb\xbf", 3))
         p.at += 3;
-    if (*section && !tc_find(&p, &line, section))
+    snprintf(name, sizeof name, "%.*s", bracket ? (int)(bracket - section) : (int)strlen(section), section);
+    if (bracket)
+        element = atoi(bracket + 1);
+    if (*section && !tc_find(&p, &line, name))
+        return line;
+    if (element >= 0 && !tc_find_element(&p, &line, element))
         return line;
     tc_find(&p, &line, key);
     return line;
