@@ -143,27 +143,29 @@ static const char *tc_look_empty_reason(const tc_look *look)
     return NULL;
 }
 
-static void tc_empty_warn(const tc_render_run *run, tc_talk *talk)
+bool tc_picture_is_empty(char *why, size_t capacity, const tc_render_run *run)
 {
-    char why[512];
+    char reason[512];
     const tc_look *look = run->render.look;
     const double peak =
         look && look->model == TC_MODEL_EMISSION ? tc_image_light(run->image) : (double)tc_image_peak(run->image);
+    *why = 0;
     if (peak >= TC_VISIBLE)
-        return;
+        return false;
     if (peak > 0) {
-        tc_talk_always(talk,
-                       "the picture is all but empty: no pixel is more opaque than %.3g, less than half an 8-bit step; "
-                       "raise --opacity or make --unit-distance smaller",
-                       peak);
-        return;
+        snprintf(why, capacity,
+                 "the picture is all but empty: no pixel is more opaque than %.3g, less than half an 8-bit step; "
+                 "raise --opacity or make --unit-distance smaller",
+                 peak);
+        return true;
     }
-    const char *reason = tc_look_empty_reason(look);
-    if (!reason)
-        tc_empty_reason(why, sizeof why, &run->report, tc_run_field(run), run->tf,
+    const char *known = tc_look_empty_reason(look);
+    if (!known)
+        tc_empty_reason(reason, sizeof reason, &run->report, tc_run_field(run), run->tf,
                         run->options->nan_color.there ? run->render.nan_color : NULL, &run->camera,
                         &run->options->size);
-    tc_talk_always(talk, "the picture is empty: %s", reason ? reason : why);
+    snprintf(why, capacity, "the picture is empty: %s", known ? known : reason);
+    return true;
 }
 
 static void tc_render_summary(const tc_render_run *run, tc_talk *talk)
@@ -188,23 +190,26 @@ int tc_render_ready(tc_frames *frames, tc_talk *talk)
     return status ? tc_talk_status(talk, status, &err) : -1;
 }
 
-int tc_render_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
+int tc_picture_render(tc_render_run *run, tc_frames *frames, tc_talk *talk)
 {
     const tc_render_command *options = run->options;
-    int code = -1;
-    if (tc_choice_asked(options))
-        code = tc_choice_make(run, frames->renderer, talk);
-    if (code >= 0)
-        return code;
-    code = tc_frames_run(run, frames, talk);
+    int code = tc_choice_asked(options) ? tc_choice_make(run, frames->renderer, talk) : -1;
+    if (code < 0)
+        code = tc_frames_run(run, frames, talk);
     if (code < 0 && options->has_verify)
         code = tc_verify_run(run, talk);
     if (code < 0)
         tc_choice_take_verify(run, talk);
-    if (code < 0)
-        code = tc_choice_judge(run, talk);
+    return code < 0 ? tc_choice_judge(run, talk) : code;
+}
+
+int tc_render_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
+{
+    char why[640];
+    int code = tc_picture_render(run, frames, talk);
     if (code < 0) {
-        tc_empty_warn(run, talk);
+        if (tc_picture_is_empty(why, sizeof why, run))
+            tc_talk_always(talk, "%s", why);
         code = tc_picture_write(run, frames, talk, argc, argv);
     }
     if (code < 0 && run->errors)

@@ -21,8 +21,12 @@ void tc_frames_finish(tc_frames *frames);
 
 /* Waits for the renderer. -1 to go on, else an exit code. */
 int tc_render_ready(tc_frames *frames, tc_talk *talk);
-/* Renders, verifies and writes the picture and the image of errors. -1 to go on, else an exit code; run->measured says
- * whether there are numbers all the same. */
+/* Renders run->image and verifies it. -1 to go on, else an exit code. */
+int tc_picture_render(tc_render_run *run, tc_frames *frames, tc_talk *talk);
+/* Is there nothing to be seen in run->image? why gets the sentence that says so, and why as far as it can be told. */
+bool tc_picture_is_empty(char *why, size_t capacity, const tc_render_run *run);
+/* tc_picture_render, and writes the picture and the image of errors. The same codes; run->measured says whether there are
+ * numbers all the same. */
 int tc_render_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv);
 /* Says what was done, when all is written, and what was wrong with it. -1, or an exit code. */
 int tc_render_end(const tc_render_run *run, tc_talk *talk);
