@@ -12,29 +12,29 @@
  * without a field). */
 #define _GNU_SOURCE
 
+#include "read.h"
+
 #include "core/memory.h"
-#include "core/worker.h"
+#include "core/parallel.h"
 #include "mesh/field.h"
-#include "mesh/mesh.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { TC_HASH_TEXT = 17 }; /* characters of a hash, with the end */
 
 /* ------------------------------------------------------------------------------------------ request */
 
-/* known: the hash of a mesh that need not be sent; 0: none. */
-static tc_status make_request(json_t **out, const char *path, const tc_read_options *options, bool keep, uint64_t known,
-                              tc_error *err)
+tc_status tc_read_request(json_t **out, const char *what, const char *path, const tc_read_options *options,
+                          tc_error *err)
 {
     json_t *request = json_object();
     int bad = !request;
-    bad |= json_object_set_new(request, "do", json_string("read"));
+    *out = NULL;
+    bad |= json_object_set_new(request, "do", json_string(what));
     json_t *name = json_string(path);
     if (!name) {
         json_decref(request);
@@ -51,12 +51,6 @@ static tc_status make_request(json_t **out, const char *path, const tc_read_opti
             return tc_fail(err, TC_E_ARG, "the name of the array is not UTF-8");
         }
         bad |= json_object_set_new(request, "field", field);
-    }
-    bad |= json_object_set_new(request, "keep", json_boolean(keep));
-    if (known) {
-        char text[TC_HASH_TEXT];
-        snprintf(text, sizeof text, "%016" PRIx64, known);
-        bad |= json_object_set_new(request, "mesh", json_string(text));
     }
     if (options->has_time)
         bad |= json_object_set_new(request, "time", json_real(options->time));
@@ -220,16 +214,18 @@ static uint64_t hash_of(const tc_reply *reply)
 
 /* ------------------------------------------------------------------------------------------ mesh */
 
-static double now_ms(void)
+bool tc_read_is_same(const tc_reply *reply)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+    return json_is_true(json_object_get(reply->json, "same_mesh"));
 }
 
-/* The values of a reply; *association is of them. NULL with TC_OK: the file has no field. */
-static tc_status find_scalar(const double **out, tc_association *association, const tc_reply *reply, size_t n_vertex,
-                             size_t n_tet, tc_error *err)
+int tc_read_step(const tc_reply *reply)
+{
+    return (int)json_integer_value(json_object_get(reply->json, "step"));
+}
+
+tc_status tc_read_values_of(const double **out, tc_association *association, const tc_reply *reply, size_t n_vertex,
+                            size_t n_tet, tc_error *err)
 {
     const tc_array *scalar = tc_reply_array(reply, "scalar", TC_F64);
     *out = NULL;
@@ -246,7 +242,7 @@ static tc_status find_scalar(const double **out, tc_association *association, co
     return TC_OK;
 }
 
-static tc_status make_mesh(tc_mesh **out, const char *path, const tc_reply *reply, double start, tc_error *err)
+tc_status tc_read_make_mesh(tc_mesh **out, const char *path, const tc_reply *reply, double ms, tc_error *err)
 {
     const tc_array *vertex = tc_reply_array(reply, "vertex", TC_F64);
     const tc_array *tet = tc_reply_array(reply, "tet", TC_I32);
@@ -259,15 +255,17 @@ static tc_status make_mesh(tc_mesh **out, const char *path, const tc_reply *repl
                              .tet = tet->data,
                              .field_name = text_of(reply->json, "field")};
     tc_mesh *mesh = NULL;
-    tc_status status = find_scalar(&arrays.scalar, &arrays.association, reply, arrays.n_vertex, arrays.n_tet, err);
+    const double start = tc_now_ms();
+    tc_status status = tc_read_values_of(&arrays.scalar, &arrays.association, reply, arrays.n_vertex, arrays.n_tet, err);
     if (!status)
         status = tc_mesh_create(&mesh, &arrays, err);
     if (!status)
-        status = make_source(&mesh->source, &mesh->source_memory, path, reply, now_ms() - start, err);
+        status = make_source(&mesh->source, &mesh->source_memory, path, reply, ms, err);
     if (status) {
         tc_mesh_destroy(&mesh);
         return status;
     }
+    mesh->source->ms_read = ms + tc_now_ms() - start;
     mesh->source_hash = hash_of(reply);
     mesh->report.source_cells = count_of(reply->json, "solid_cells");
     mesh->file = (tc_file_repairs){.degenerate = count_of(reply->json, "degenerate"),
@@ -278,9 +276,9 @@ static tc_status make_mesh(tc_mesh **out, const char *path, const tc_reply *repl
     return TC_OK;
 }
 
-/* Puts the values of a reply onto the mesh they belong to; on failure it is as it was. */
-static tc_status take_values(tc_mesh *mesh, const char *path, const tc_reply *reply, double start, tc_error *err)
+tc_status tc_read_take_values(tc_mesh *mesh, const char *path, const tc_reply *reply, double ms, tc_error *err)
 {
+    const double start = tc_now_ms();
     const double *scalar;
     tc_association association;
     double *none = NULL;
@@ -288,7 +286,7 @@ static tc_status take_values(tc_mesh *mesh, const char *path, const tc_reply *re
     void *memory = NULL;
     const char *label = text_of(reply->json, "field");
     char *name = label ? strdup(label) : NULL;
-    tc_status status = find_scalar(&scalar, &association, reply, mesh->n_vertex_source, mesh->n_tet_source, err);
+    tc_status status = tc_read_values_of(&scalar, &association, reply, mesh->n_vertex_source, mesh->n_tet_source, err);
     if (!status && label && !name)
         status = tc_fail_memory(err, "the name of an array", strlen(label), 1);
     if (!status && !scalar) {
@@ -298,7 +296,7 @@ static tc_status take_values(tc_mesh *mesh, const char *path, const tc_reply *re
             status = tc_fail_memory(err, "new values", mesh->n_vertex_source, sizeof *none);
     }
     if (!status)
-        status = make_source(&source, &memory, path, reply, now_ms() - start, err);
+        status = make_source(&source, &memory, path, reply, ms, err);
     if (!status)
         status = tc_mesh_set_scalar(mesh, scalar, association, err);
     free(none);
@@ -314,13 +312,13 @@ static tc_status take_values(tc_mesh *mesh, const char *path, const tc_reply *re
     mesh->field_name = name;
     mesh->source = source;
     mesh->source_memory = memory;
-    mesh->source->ms_read = now_ms() - start;
+    mesh->source->ms_read = ms + tc_now_ms() - start;
     return TC_OK;
 }
 
 /* ------------------------------------------------------------------------------------------ calls */
 
-static tc_status check_options(const tc_read_options *options, tc_error *err)
+tc_status tc_read_check(const tc_read_options *options, tc_error *err)
 {
     if (options->refine < 0 || options->refine > 6)
         return tc_fail(err, TC_E_ARG, "refine %d is not in 0 to 6 (each level makes 8 times as many tets)",
@@ -330,15 +328,14 @@ static tc_status check_options(const tc_read_options *options, tc_error *err)
     return TC_OK;
 }
 
-/* One request to *worker, which is started where it is NULL, and stopped where it cannot go on. */
-static tc_status ask(tc_reply *reply, tc_worker **worker, const char *path, const tc_read_options *options, bool keep,
-                     uint64_t known, const tc_log *log, tc_error *err)
+tc_status tc_read_call(tc_reply *reply, tc_worker **worker, json_t *request, const char *path,
+                       const tc_read_options *options, const tc_log *log, tc_error *err)
 {
-    json_t *request = NULL;
     const tc_worker_limits limits = {.idle_s = options->idle_limit_s > 0 ? options->idle_limit_s : 60,
                                      .memory_bytes = TC_WORKER_MACHINE};
-    tc_status status = make_request(&request, path, options, keep, known, err);
-    if (!status && !*worker)
+    *reply = (tc_reply){0};
+    tc_status status = TC_OK;
+    if (!*worker)
         status = tc_worker_start(worker, "tetcast-read", &limits, err);
     if (!status)
         status = tc_worker_call(reply, *worker, request, NULL, 0, log, err);
@@ -346,7 +343,29 @@ static tc_status ask(tc_reply *reply, tc_worker **worker, const char *path, cons
         tc_fail_prefix(err, status, "%s could not be read, it is probably damaged: ", path);
     if (status && status != TC_E_FILE)
         tc_worker_stop(worker);
+    return status;
+}
+
+tc_status tc_read_ask(tc_reply *reply, double *ms, tc_worker **worker, const char *path,
+                      const tc_read_options *options, bool keep, uint64_t known, const tc_log *log, tc_error *err)
+{
+    json_t *request;
+    const double start = tc_now_ms();
+    *reply = (tc_reply){0};
+    tc_status status = tc_read_request(&request, "read", path, options, err);
+    if (status)
+        return status;
+    int bad = json_object_set_new(request, "keep", json_boolean(keep));
+    if (known) {
+        char text[TC_HASH_TEXT];
+        snprintf(text, sizeof text, "%016" PRIx64, known);
+        bad |= json_object_set_new(request, "mesh", json_string(text));
+    }
+    status = bad ? tc_fail_memory(err, "a request", 1, 256)
+                 : tc_read_call(reply, worker, request, path, options, log, err);
     json_decref(request);
+    if (ms)
+        *ms = tc_now_ms() - start;
     return status;
 }
 
@@ -362,12 +381,12 @@ tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_options *o
     tc_worker *worker = NULL;
     tc_reply reply = {0};
     tc_mesh *mesh = NULL;
-    const double start = now_ms();
-    tc_status status = check_options(options, err);
+    double ms;
+    tc_status status = tc_read_check(options, err);
     if (!status)
-        status = ask(&reply, &worker, path, options, options->keep_reader, 0, log, err);
+        status = tc_read_ask(&reply, &ms, &worker, path, options, options->keep_reader, 0, log, err);
     if (!status)
-        status = make_mesh(&mesh, path, &reply, start, err);
+        status = tc_read_make_mesh(&mesh, path, &reply, ms, err);
     tc_reply_finish(&reply);
     if (!status && options->keep_reader)
         mesh->reader = worker;
@@ -377,21 +396,32 @@ tc_status tc_mesh_read(tc_mesh **out, const char *path, const tc_read_options *o
     return status;
 }
 
+tc_status tc_read_fail_moved(const char *path, int step, tc_error *err)
+{
+    return tc_fail(err, TC_E_MOVED,
+                   "%s: the points or cells of step %d are not those of the mesh that is to take its values; read and "
+                   "prepare that step as a mesh of its own",
+                   path, step);
+}
+
+void tc_read_wait(tc_mesh *mesh)
+{
+    if (mesh->ahead)
+        mesh->ahead_wait(mesh->ahead);
+}
+
 /* The mesh of a reply whose points or cells are not those of `old`, with the reader that it had. */
-static tc_status take_moved(tc_mesh **moved, tc_mesh *old, const char *path, const tc_reply *reply, double start,
+static tc_status take_moved(tc_mesh **moved, tc_mesh *old, const char *path, const tc_reply *reply, double ms,
                             tc_error *err)
 {
-    tc_status status = moved ? make_mesh(moved, path, reply, start, err) : TC_OK;
+    tc_status status = moved ? tc_read_make_mesh(moved, path, reply, ms, err) : TC_OK;
     if (status)
         return status;
     if (moved) {
         (*moved)->reader = old->reader;
         old->reader = NULL;
     }
-    return tc_fail(err, TC_E_MOVED,
-                   "%s: the points or cells of step %d are not those of the mesh that is to take its values; read and "
-                   "prepare that step as a mesh of its own",
-                   path, (int)json_integer_value(json_object_get(reply->json, "step")));
+    return tc_read_fail_moved(path, tc_read_step(reply), err);
 }
 
 tc_status tc_mesh_read_values(tc_mesh **moved, tc_mesh *mesh, const char *path, const tc_read_options *options,
@@ -410,21 +440,22 @@ tc_status tc_mesh_read_values(tc_mesh **moved, tc_mesh *mesh, const char *path, 
     if (!options)
         options = &defaults;
     tc_reply reply = {0};
-    const double start = now_ms();
-    tc_status status = check_options(options, err);
+    double ms;
+    tc_read_wait(mesh);
+    tc_status status = tc_read_check(options, err);
     if (!status)
-        status = ask(&reply, &mesh->reader, path, options, true, mesh->source_hash, log, err);
-    if (!status && !json_is_true(json_object_get(reply.json, "same_mesh")))
-        status = take_moved(moved, mesh, path, &reply, start, err);
+        status = tc_read_ask(&reply, &ms, &mesh->reader, path, options, true, mesh->source_hash, log, err);
+    if (!status && !tc_read_is_same(&reply))
+        status = take_moved(moved, mesh, path, &reply, ms, err);
     else if (!status)
-        status = take_values(mesh, path, &reply, start, err);
+        status = tc_read_take_values(mesh, path, &reply, ms, err);
     tc_reply_finish(&reply);
     if (status != TC_E_MESH)
         return status;
     /* Points at one place were merged for equal values, which differ in this step: it needs a mesh of its own. */
-    status = ask(&reply, &mesh->reader, path, options, true, 0, log, err);
+    status = tc_read_ask(&reply, &ms, &mesh->reader, path, options, true, 0, log, err);
     if (!status)
-        status = take_moved(moved, mesh, path, &reply, start, err);
+        status = take_moved(moved, mesh, path, &reply, ms, err);
     tc_reply_finish(&reply);
     return status;
 }
@@ -434,13 +465,13 @@ static tc_status make_field(tc_field **out, const tc_mesh *mesh, const char *pat
 {
     const double *value;
     tc_association association;
-    if (!json_is_true(json_object_get(reply->json, "same_mesh")))
+    if (!tc_read_is_same(reply))
         return tc_fail(
             err, TC_E_MOVED,
             "%s: the points or cells of step %d are not those of the mesh that is to have a field of it; take "
             "the mesh and the field of one step",
-            path, (int)json_integer_value(json_object_get(reply->json, "step")));
-    tc_status status = find_scalar(&value, &association, reply, mesh->n_vertex_source, mesh->n_tet_source, err);
+            path, tc_read_step(reply));
+    tc_status status = tc_read_values_of(&value, &association, reply, mesh->n_vertex_source, mesh->n_tet_source, err);
     if (status)
         return status;
     if (!value)
@@ -466,9 +497,10 @@ tc_status tc_field_read(tc_field **out, tc_mesh *mesh, const char *path, const t
     if (!options)
         options = &defaults;
     tc_reply reply = {0};
-    tc_status status = check_options(options, err);
+    tc_read_wait(mesh);
+    tc_status status = tc_read_check(options, err);
     if (!status)
-        status = ask(&reply, &mesh->reader, path, options, true, mesh->source_hash, log, err);
+        status = tc_read_ask(&reply, NULL, &mesh->reader, path, options, true, mesh->source_hash, log, err);
     if (!status)
         status = make_field(out, mesh, path, &reply, err);
     tc_reply_finish(&reply);

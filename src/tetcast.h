@@ -215,15 +215,17 @@ TC_API tc_status tc_mesh_read_values(tc_mesh **moved, tc_mesh *mesh, const char 
                                      const tc_log *log, tc_error *err);
 
 /* tc_mesh_read_values on a thread of its own, so that the next step is read while this one is rendered. begin returns at
- * once; path and the texts of options are copied. Until the end mesh stays as it is and may be rendered; calls that need its
- * reader (tc_field_read) wait for it. prepare, may be NULL: a mesh that moved is also prepared on that thread.
- * Errors: TC_E_ARG, TC_E_MEMORY; the others are told at the end. */
+ * once; path and the texts of options are copied. Until the end mesh stays as it is and may be rendered and prepared; calls
+ * that need its reader (tc_field_read, tc_mesh_read_values, tc_mesh_destroy) wait for it. prepare, may be NULL: a mesh that
+ * moved is also prepared on that thread.
+ * Errors: TC_E_ARG (also: a step is being read ahead for mesh already), TC_E_MEMORY; the others are told at the end. */
 typedef struct tc_mesh_ahead tc_mesh_ahead;
 TC_API tc_status tc_mesh_ahead_begin(tc_mesh_ahead **out, tc_mesh *mesh, const char *path, const tc_read_options *options,
                                      const tc_prepare_options *prepare, tc_error *err);
 /* Waits for it, and puts the values onto mesh, the one of begin; *ahead is freed, whatever the result, and what was to be said
  * goes to log now. moved, status and errors as of tc_mesh_read_values, and those of tc_mesh_prepare (then *moved is NULL).
- * mesh NULL: what was read is not wanted any more. */
+ * mesh NULL: what was read is not wanted any more; it is waited for, nothing is told, and the mesh, which may be gone, keeps
+ * its values. */
 TC_API tc_status tc_mesh_ahead_end(tc_mesh **moved, tc_mesh *mesh, tc_mesh_ahead **ahead, const tc_log *log,
                                    tc_error *err);
 

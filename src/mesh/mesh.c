@@ -91,6 +91,8 @@ void tc_mesh_destroy(tc_mesh **mesh)
     if (!mesh || !*mesh)
         return;
     tc_mesh *m = *mesh;
+    if (m->ahead)
+        m->ahead_leave(m->ahead);
     tc_mesh_finish_arrays(m);
     free(m->field_name);
     free(m->source);

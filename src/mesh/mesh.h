@@ -47,6 +47,9 @@ struct tc_mesh {
     void *source_memory;  /* everything source points into: one block, free() */
     uint64_t source_hash; /* of the arrays that a file's points and cells became, by tetcast-read; 0: from no file */
     struct tc_worker *reader; /* tetcast-read, kept for tc_mesh_read_values; NULL: it is started when it is needed */
+    struct tc_mesh_ahead *ahead; /* what has the reader now (tc_mesh_ahead_begin); NULL: nothing */
+    void (*ahead_wait)(struct tc_mesh_ahead *);  /* waits until it has given the reader back */
+    void (*ahead_leave)(struct tc_mesh_ahead *); /* … and tells it that the mesh is gone */
 };
 
 /* Sets the report's scalar_range, nonfinite_scalars and nonfinite_cells from the values; both ends are 0 when none is

@@ -128,6 +128,7 @@ static tc_status prepare_first(tc_mesh *mesh, const tc_prepare_options *o, const
     next.field_name = mesh->field_name;
     next.source = mesh->source, next.source_memory = mesh->source_memory;
     next.source_hash = mesh->source_hash, next.reader = mesh->reader;
+    next.ahead = mesh->ahead, next.ahead_wait = mesh->ahead_wait, next.ahead_leave = mesh->ahead_leave;
     next.serial = tc_mesh_new_serial();
     next.scalar_serial = tc_mesh_new_serial();
     next.prepared = true;
