@@ -62,6 +62,10 @@ void tc_frame_build(tc_frame *out, const tc_rays *rays, const double center[3], 
     memset(out, 0, sizeof *out);
     clip_matrix(out->clip, rays->clip, center, scale);
     scale_clip(out->clip);
+    clip_matrix(out->whole_clip, rays->whole_clip, center, scale);
+    scale_clip(out->whole_clip);
+    out->part[0] = rays->part_x, out->part[1] = rays->part_y;
+    out->whole_size[0] = rays->whole_width, out->whole_size[1] = rays->whole_height;
 
     const double *axis = rays->axis;
     double eye[3];

@@ -11,7 +11,10 @@ typedef struct tc_frame {
     double direction[3], direction_dx[3], direction_dy[3]; /* not normalised */
     double up[3];                                          /* not parallel to any ray */
     double near_t, far_t; /* what is seen lies between origin + near_t * direction and origin + far_t * direction */
+    double part[2];       /* of the pixel (0, 0) in X, Y: the picture may be a part of one */
     float clip[16];       /* mesh space → clip space, column-major */
+    float whole_clip[16]; /* the same of the whole picture, of whole_size [2] pixels */
+    double whole_size[2];
     /* What of that the mesh's sphere calls for. The near plane is the eye's own where nothing is clipped. */
     bool clip_near;  /* the near plane cuts the mesh: walks start at the entry before it, and segments are cut */
     bool clip_far;   /* the far plane cuts the mesh: a walk ends there */

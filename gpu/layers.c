@@ -186,7 +186,10 @@ static void bind_draw(const tc_layers *l, const tc_layers_scene *scene, const tc
         char name[24];
         snprintf(name, sizeof name, "geometry_clip[%d]", k);
         gl->Uniform4fv(gl->GetUniformLocation(program, name), 1, job->frame->clip + 4 * k);
+        snprintf(name, sizeof name, "whole_clip[%d]", k);
+        gl->Uniform4fv(gl->GetUniformLocation(program, name), 1, job->frame->whole_clip + 4 * k);
     }
+    tc_pass_vec2(gl, program, "whole_size", job->frame->whole_size[0], job->frame->whole_size[1]);
     tc_pass_vec4(gl, program, "geometry_color", color);
     tc_pass_vec2(gl, program, "picture_size", l->width, l->height);
     tc_pass_texture(gl, program, "geometry_vertices", UNIT_VERTICES, GL_TEXTURE_BUFFER, b->vertices.texture);

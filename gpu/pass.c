@@ -39,6 +39,7 @@ void tc_pass_frame(const tc_gl *gl, GLuint program, const tc_frame *frame)
     tc_pass_float(gl, program, "ray_far", frame->far_t);
     gl->Uniform3f(gl->GetUniformLocation(program, "ray_up"), (float)frame->up[0], (float)frame->up[1],
                   (float)frame->up[2]);
+    tc_pass_vec2(gl, program, "ray_part", frame->part[0], frame->part[1]);
 }
 
 void tc_pass_texture(const tc_gl *gl, GLuint program, const char *name, GLuint unit, GLenum target, GLuint texture)

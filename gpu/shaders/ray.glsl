@@ -4,6 +4,7 @@
 #ifdef RAYS_FLAT // screen.vert hands them on
 flat in uvec4 ray_flat[9];
 flat in vec3 ray_flat_up;
+flat in vec2 ray_flat_part;
 dvec3 ray_flat_vector(int i)
 {
     uvec4 a = ray_flat[3 * i / 2], b = ray_flat[3 * i / 2 + 1];
@@ -17,6 +18,7 @@ dvec3 ray_flat_vector(int i)
 #define ray_direction_dx ray_flat_vector(4)
 #define ray_direction_dy ray_flat_vector(5)
 #define ray_up ray_flat_up
+#define ray_part ray_flat_part
 #else
 #include "ray_uniforms.glsl"
 #endif
@@ -40,7 +42,7 @@ struct Ray {
 
 Ray ray_of_pixel(vec2 pixel)
 {
-    double x = double(pixel.x), y = double(pixel.y);
+    double x = double(pixel.x + ray_part.x), y = double(pixel.y + ray_part.y);
     Ray ray;
     precise vec3 o = vec3(ray_point + x * ray_point_dx + y * ray_point_dy);
     precise vec3 d = vec3(ray_direction + x * ray_direction_dx + y * ray_direction_dy);

@@ -4,6 +4,7 @@
 #include "ray_uniforms.glsl"
 flat out uvec4 ray_flat[9]; // six vectors of three doubles
 flat out vec3 ray_flat_up;
+flat out vec2 ray_flat_part;
 #endif
 
 void main()
@@ -18,6 +19,7 @@ void main()
     for (int i = 0; i < 9; i++)
         ray_flat[i] = uvec4(unpackDouble2x32(number[2 * i]), unpackDouble2x32(number[2 * i + 1]));
     ray_flat_up = ray_up;
+    ray_flat_part = ray_part;
 #endif
     vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(p, 0.0, 1.0);

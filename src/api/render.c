@@ -29,6 +29,22 @@ double tc_default_unit_distance(const tc_mesh *mesh)
     return unit > 0 && isfinite(unit) ? unit : 1;
 }
 
+/* Is the picture whole, or a part that lies within a whole one? */
+static tc_status check_part(const tc_render_options *o, tc_error *err)
+{
+    if (o->whole_width == 0 && o->whole_height == 0 && o->part_x == 0 && o->part_y == 0)
+        return TC_OK;
+    if (o->whole_width < 1 || o->whole_height < 1 || o->whole_width > MAX_SIZE || o->whole_height > MAX_SIZE)
+        return tc_fail(err, TC_E_ARG,
+                       "a whole picture of %dx%d pixels has no parts; use 1 to %d each way, or 0 for whole and part",
+                       o->whole_width, o->whole_height, MAX_SIZE);
+    if (o->part_x < 0 || o->part_y < 0 || o->part_x > o->whole_width - o->width ||
+        o->part_y > o->whole_height - o->height)
+        return tc_fail(err, TC_E_ARG, "a part of %dx%d pixels at %d,%d does not lie within a picture of %dx%d",
+                       o->width, o->height, o->part_x, o->part_y, o->whole_width, o->whole_height);
+    return TC_OK;
+}
+
 tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, const tc_transfer *tf,
                             const tc_camera *camera, const tc_render_options *options, tc_error *err)
 {
@@ -39,6 +55,9 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
     if (options->width < 1 || options->height < 1 || options->width > MAX_SIZE || options->height > MAX_SIZE)
         return tc_fail(err, TC_E_ARG, "an image of %dx%d pixels cannot be made; use 1 to %d each way", options->width,
                        options->height, MAX_SIZE);
+    tc_status status = check_part(options, err);
+    if (status != TC_OK)
+        return status;
     if (!(options->opacity_stop >= 0))
         return tc_fail(err, TC_E_ARG, "opacity stop %g must not be below 0 (0: chosen; 1: rays never stop early)",
                        options->opacity_stop);
@@ -126,7 +145,12 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
     if (options->look && tc_look_wrong(why, sizeof why, options->look, mesh))
         return tc_fail(err, TC_E_ARG, "%s", why);
     *unit = options->unit_distance > 0 ? options->unit_distance : tc_default_unit_distance(mesh);
-    return tc_rays_from_camera(rays, camera, options->width, options->height, err);
+    if (options->whole_width == 0)
+        return tc_rays_from_camera(rays, camera, options->width, options->height, err);
+    status = tc_rays_from_camera(rays, camera, options->whole_width, options->whole_height, err);
+    if (status == TC_OK)
+        tc_rays_part(rays, rays, options->part_x, options->part_y, options->width, options->height);
+    return status;
 }
 
 /* ----------------------------------------------------------------------------------------- pingpong, compute */

@@ -71,17 +71,36 @@ static bool is_dark(const tc_image *image)
     return n > 0 && sum < 0.5 * (double)n;
 }
 
+/* Does the image lie within the picture that it is a part of? */
+static tc_status check_part(const tc_image *image, const tc_figure *f, tc_error *err)
+{
+    if (f->whole_width == 0 && f->whole_height == 0 && f->part_x == 0 && f->part_y == 0)
+        return TC_OK;
+    if (f->whole_width < 1 || f->whole_height < 1 || f->part_x < 0 || f->part_y < 0 ||
+        f->part_x > f->whole_width - image->width || f->part_y > f->whole_height - image->height)
+        return tc_fail(err, TC_E_ARG, "a part of %dx%d pixels at %d,%d does not lie within a picture of %dx%d",
+                       image->width, image->height, f->part_x, f->part_y, f->whole_width, f->whole_height);
+    if (f->ink == TC_INK_AUTO)
+        return tc_fail(err, TC_E_ARG,
+                       "the ink of a figure cannot be measured in a part of its picture; give it dark or light ink");
+    return TC_OK;
+}
+
 tc_status tc_figure_draw(tc_image *image, const tc_figure *figure, const tc_log *log, tc_error *err)
 {
     if (!image || !image->rgba || image->width < 1 || image->height < 1)
         return tc_fail(err, TC_E_ARG, "a figure needs a picture to be drawn over");
     tc_status status = tc_figure_check(figure, err);
+    if (status == TC_OK)
+        status = check_part(image, figure, err);
     if (status != TC_OK)
         return status;
+    const bool part = figure->whole_width > 0;
     tc_layout *layout = tc_alloc(1, sizeof *layout);
     if (!layout)
         return tc_fail_memory(err, "a figure", 1, sizeof *layout);
-    status = tc_layout_make(layout, figure, image->width, image->height, log, err);
+    status = tc_layout_make(layout, figure, part ? figure->whole_width : image->width,
+                            part ? figure->whole_height : image->height, log, err);
     if (status == TC_OK)
         status = tc_figure_paint(image, layout,
                                  figure->ink == TC_INK_AUTO ? is_dark(image) : figure->ink == TC_INK_LIGHT, err);

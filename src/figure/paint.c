@@ -1,5 +1,6 @@
 /* paint.c: puts items over the picture. Lines and letters get a soft edge of the opposite ink first, as far as what is
- * behind them is opaque and lacks contrast: on an even background, or a transparent one, there is none. */
+ * behind them is opaque and lacks contrast: on an even background, or a transparent one, there is none.
+ * Places are those of the whole picture, of which the image may be a part: a pixel gets the same bits in every part. */
 #include "figure/paint.h"
 
 #include "core/memory.h"
@@ -13,8 +14,25 @@
 typedef struct painter {
     tc_image *image;
     const tc_layout *layout;
+    int x0, y0, x1, y1; /* the image's place in the picture */
     bool light;
 } painter;
+
+/* A pixel of the picture that lies in the image. */
+static float *pixel_at(const painter *p, int x, int y)
+{
+    return p->image->rgba + 4 * ((size_t)(y - p->y0) * (size_t)p->image->width + (size_t)(x - p->x0));
+}
+
+static int lower(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static int upper(int a, int b)
+{
+    return a > b ? a : b;
+}
 
 static void put(float *p, const float color[3], float a)
 {
@@ -43,7 +61,7 @@ static void color_of(float out[3], const painter *p, int hue)
 /* The ink of one pixel, or its soft edge. */
 static void paint_pixel(const painter *p, int x, int y, const float color[3], float a, bool edge)
 {
-    float *pixel = p->image->rgba + 4 * ((size_t)y * (size_t)p->image->width + (size_t)x);
+    float *pixel = pixel_at(p, x, y);
     if (a > 0)
         put(pixel, color, edge ? a * lack(pixel, p->light ? 1 : 0) : a);
 }
@@ -60,7 +78,7 @@ static void paint_line(const painter *p, const tc_item *item, const float color[
     if (!(length > 0))
         return;
     double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
-    int top = (int)fmax(floor(fmin(y0, y1) - far), 0), bottom = (int)fmin(ceil(fmax(y0, y1) + far), p->image->height);
+    int top = (int)fmax(floor(fmin(y0, y1) - far), p->y0), bottom = (int)fmin(ceil(fmax(y0, y1) + far), p->y1);
     for (int y = top; y < bottom; y++) {
         /* the part of the row that may be near */
         double left = fmin(x0, x1) - far, right = fmax(x0, x1) + far;
@@ -68,7 +86,7 @@ static void paint_line(const painter *p, const tc_item *item, const float color[
             double at = x0 + (y + 0.5 - y0) * ux / uy, reach = far * (1 + fabs(ux)) / fabs(uy) + 1;
             left = fmax(left, at - reach), right = fmin(right, at + reach);
         }
-        for (int x = (int)fmax(floor(left), 0); x < right && x < p->image->width; x++) {
+        for (int x = (int)fmax(floor(left), p->x0); x < right && x < p->x1; x++) {
             double dx = x + 0.5 - x0, dy = y + 0.5 - y0, along = dx * ux + dy * uy;
             double beside = h + soft + 0.5 - fabs(dx * uy - dy * ux);
             double before = fmin(along, length - along) + soft + 0.5;
@@ -77,12 +95,12 @@ static void paint_line(const painter *p, const tc_item *item, const float color[
     }
 }
 
-/* Does any pixel there need a soft edge? */
-static bool is_lacking(const painter *p, int left, int top, int width, int height)
+/* Does any pixel there, of the image, need a soft edge? */
+static bool is_lacking(const painter *p, int left, int top, int right, int bottom)
 {
-    for (int y = top; y < top + height; y++)
-        for (int x = left; x < left + width; x++)
-            if (lack(p->image->rgba + 4 * ((size_t)y * (size_t)p->image->width + (size_t)x), p->light ? 1 : 0) > 0)
+    for (int y = top; y < bottom; y++)
+        for (int x = left; x < right; x++)
+            if (lack(pixel_at(p, x, y), p->light ? 1 : 0) > 0)
                 return true;
     return false;
 }
@@ -91,9 +109,11 @@ static bool paint_text(const painter *p, const tc_item *item, const float color[
 {
     double radius = fmax(1.2, item->em / 11), far = 2 + (edge ? radius : 0);
     int left = (int)fmax(floor(item->box.x0 - far), 0), top = (int)fmax(floor(item->box.y0 - far), 0);
-    int width = (int)fmin(ceil(item->box.x1 + far), p->image->width) - left;
-    int height = (int)fmin(ceil(item->box.y1 + far), p->image->height) - top;
-    if (edge && !is_lacking(p, left, top, width, height))
+    int width = (int)fmin(ceil(item->box.x1 + far), p->layout->width) - left;
+    int height = (int)fmin(ceil(item->box.y1 + far), p->layout->height) - top;
+    const int x0 = upper(left, p->x0), y0 = upper(top, p->y0);
+    const int x1 = lower(left + width, p->x1), y1 = lower(top + height, p->y1);
+    if (x0 >= x1 || y0 >= y1 || (edge && !is_lacking(p, x0, y0, x1, y1)))
         return true;
     size_t pixels = (size_t)width * (size_t)height;
     tc_path path = {0};
@@ -103,10 +123,11 @@ static bool paint_text(const painter *p, const tc_item *item, const float color[
                 tc_path_fill(coverage, left, top, width, height, &path);
     if (fine && edge)
         tc_fill_grow(wide, coverage, width, height, radius);
-    for (int y = 0; fine && y < height; y++)
-        for (int x = 0; x < width; x++)
-            paint_pixel(p, left + x, top + y, color, (edge ? wide : coverage)[(size_t)y * (size_t)width + (size_t)x],
-                        edge);
+    for (int y = y0; fine && y < y1; y++)
+        for (int x = x0; x < x1; x++) {
+            const size_t at = (size_t)(y - top) * (size_t)width + (size_t)(x - left);
+            paint_pixel(p, x, y, color, (edge ? wide : coverage)[at], edge);
+        }
     free(path.edge);
     free(coverage);
     free(wide);
@@ -143,9 +164,9 @@ static void paint_strip(const painter *p, const tc_item *item)
         float a = item->opacity ? (float)fmin(fmax(v[3], 0), 1) : 1;
         for (int j = 0; j < thick; j++) {
             int x = item->lying ? x0 + i : x0 + j, y = item->lying ? y0 + j : y1 - 1 - i;
-            if (x < 0 || y < 0 || x >= p->image->width || y >= p->image->height)
+            if (x < p->x0 || y < p->y0 || x >= p->x1 || y >= p->y1)
                 continue;
-            float *pixel = p->image->rgba + 4 * ((size_t)y * (size_t)p->image->width + (size_t)x);
+            float *pixel = pixel_at(p, x, y);
             float board = (i / square + j / square) % 2 ? 0.62f : 0.92f;
             for (int c = 0; c < 3; c++)
                 pixel[c] = a * (float)v[c] + (1 - a) * board;
@@ -171,7 +192,14 @@ static bool paint_items(const painter *p, int from, int to)
 
 tc_status tc_figure_paint(tc_image *image, const tc_layout *layout, bool light, tc_error *err)
 {
-    painter p = {.image = image, .layout = layout, .light = light};
+    const tc_figure *f = layout->figure;
+    const painter p = {.image = image,
+                       .layout = layout,
+                       .x0 = f->part_x,
+                       .y0 = f->part_y,
+                       .x1 = f->part_x + image->width,
+                       .y1 = f->part_y + image->height,
+                       .light = light};
     if (!paint_items(&p, layout->n_front, layout->n) || !paint_items(&p, 0, layout->n_front))
         return tc_fail(err, TC_E_MEMORY, "out of memory while a figure of %d x %d pixels was drawn", image->width,
                        image->height);

@@ -126,6 +126,7 @@ void tc_camera_reset(tc_camera *camera, const double *bounds, const double *dire
     camera->view_angle = view_angle;
     camera->parallel_scale = scale;
     camera->clip_near = camera->clip_far = 0;
+    camera->window_center[0] = camera->window_center[1] = 0;
 }
 
 /* Turns the position about the focal point. */
@@ -201,6 +202,9 @@ static tc_status check(const tc_camera *c, int width, int height, tc_error *err)
         return tc_fail(err, TC_E_ARG,
                        "the far clipping distance %g must be finite and beyond the near one, %g (both 0: no clipping)",
                        c->clip_far, c->clip_near);
+    if (!isfinite(c->window_center[0]) || !isfinite(c->window_center[1]))
+        return tc_fail(err, TC_E_ARG, "the window centre (%g, %g) is not finite; 0, 0 is straight ahead",
+                       c->window_center[0], c->window_center[1]);
     return TC_OK;
 }
 
@@ -221,14 +225,15 @@ tc_status tc_rays_from_camera(tc_rays *out, const tc_camera *camera, int width, 
     /* Half the view's height and width: at unit distance (perspective) or in the focal plane (parallel). */
     double h = camera->parallel ? camera->parallel_scale : tan(camera->view_angle * PI / 360);
     double w = h * ((double)width / height);
-    if (!(w > 0) || isinf(w))
+    const double *center = camera->window_center;
+    if (!(w > 0) || isinf(w) || isinf(w * (fabs(center[0]) + 1)) || isinf(h * (fabs(center[1]) + 1)))
         return tc_fail(err, TC_E_ARG, "the view of %d x %d pixels at %s %g is beyond what doubles hold", width, height,
                        camera->parallel ? "parallel scale" : "view angle",
                        camera->parallel ? camera->parallel_scale : camera->view_angle);
 
     memset(out, 0, sizeof *out);
     out->parallel = camera->parallel;
-    out->width = width, out->height = height;
+    out->width = out->whole_width = width, out->height = out->whole_height = height;
     tc_vec_copy(out->eye, camera->position);
     tc_vec_copy(out->axis, forward);
     out->near = camera->clip_near;
@@ -237,8 +242,8 @@ tc_status tc_rays_from_camera(tc_rays *out, const tc_camera *camera, int width, 
     double *dx = camera->parallel ? out->origin_dx : out->direction_dx;
     double *dy = camera->parallel ? out->origin_dy : out->direction_dy;
     tc_vec_copy(corner, camera->parallel ? camera->focal_point : forward);
-    tc_vec_mul_add(corner, corner, -w, right);
-    tc_vec_mul_add(corner, corner, -h, above);
+    tc_vec_mul_add(corner, corner, (center[0] - 1) * w, right);
+    tc_vec_mul_add(corner, corner, (center[1] - 1) * h, above);
     for (int i = 0; i < 3; i++)
         dx[i] = 2 * w / width * right[i], dy[i] = 2 * h / height * above[i];
     tc_vec_copy(camera->parallel ? out->direction : out->origin, camera->parallel ? forward : camera->position);
@@ -247,8 +252,27 @@ tc_status tc_rays_from_camera(tc_rays *out, const tc_camera *camera, int width, 
     double projection[16] = {0};
     projection[0] = 1 / w, projection[5] = 1 / h;
     projection[camera->parallel ? 15 : 11] = camera->parallel ? 1 : -1;
+    for (int k = 0; k < 2; k++) /* moves the middle: by w, which is -z in perspective */
+        projection[(camera->parallel ? 12 : 8) + k] = camera->parallel ? -center[k] : center[k];
     tc_glm_clip(out->clip, projection, view, camera->parallel ? camera->focal_point : camera->position);
+    memcpy(out->whole_clip, out->clip, sizeof out->whole_clip);
     return TC_OK;
+}
+
+void tc_rays_part(tc_rays *out, const tc_rays *rays, int x, int y, int width, int height)
+{
+    const int from_bottom = rays->height - y - height;
+    *out = *rays;
+    if (x == 0 && y == 0 && width == rays->width && height == rays->height)
+        return;
+    const double stretch[2] = {(double)rays->width / width, (double)rays->height / height};
+    const double move[2] = {(rays->width - 2.0 * x - width) / width,
+                            (rays->height - 2.0 * from_bottom - height) / height};
+    for (int k = 0; k < 4; k++)
+        for (int row = 0; row < 2; row++)
+            out->clip[4 * k + row] = stretch[row] * rays->clip[4 * k + row] + move[row] * rays->clip[4 * k + 3];
+    out->part_x += x, out->part_y += from_bottom;
+    out->width = width, out->height = height;
 }
 
 void tc_rays_shift(tc_rays *out, const tc_rays *rays, double x, double y)
@@ -261,12 +285,15 @@ void tc_rays_shift(tc_rays *out, const tc_rays *rays, double x, double y)
     for (int k = 0; k < 4; k++) { /* a pixel is 2 / width wide in clip space, where w = 1 */
         out->clip[4 * k] -= 2 * x / rays->width * rays->clip[4 * k + 3];
         out->clip[4 * k + 1] -= 2 * y / rays->height * rays->clip[4 * k + 3];
+        out->whole_clip[4 * k] -= 2 * x / rays->whole_width * rays->whole_clip[4 * k + 3];
+        out->whole_clip[4 * k + 1] -= 2 * y / rays->whole_height * rays->whole_clip[4 * k + 3];
     }
 }
 
 void tc_rays_pixel(double *origin, double *direction, const tc_rays *rays, double X, double Y)
 {
     double o[3], d[3];
+    X += rays->part_x, Y += rays->part_y;
     for (int i = 0; i < 3; i++) {
         o[i] = rays->origin[i] + X * rays->origin_dx[i] + Y * rays->origin_dy[i];
         d[i] = rays->direction[i] + X * rays->direction_dx[i] + Y * rays->direction_dy[i];
@@ -279,6 +306,7 @@ void tc_rays_pixel(double *origin, double *direction, const tc_rays *rays, doubl
 void tc_rays_range(double *range, const tc_rays *rays, double X, double Y)
 {
     double from_plane[3] = {0, 0, 0}, d[3];
+    X += rays->part_x, Y += rays->part_y;
     for (int i = 0; i < 3; i++) {
         d[i] = rays->direction[i] + X * rays->direction_dx[i] + Y * rays->direction_dy[i];
         if (rays->parallel)

@@ -70,12 +70,15 @@ char *tc_calibration_key(const tc_mesh *mesh, const tc_transfer *tf, double unit
 
 uint64_t tc_calibration_view(const tc_camera *camera, const tc_render_options *options)
 {
-    const double camera_words[] = {camera->position[0],    camera->position[1],    camera->position[2],
-                                   camera->focal_point[0], camera->focal_point[1], camera->focal_point[2],
-                                   camera->view_up[0],     camera->view_up[1],     camera->view_up[2],
-                                   camera->view_angle,     camera->parallel_scale, camera->parallel ? 1 : 0,
-                                   camera->clip_near,      camera->clip_far,       (double)options->samples};
-    const int picture[] = {options->width, options->height, options->steps_per_pass, options->z_update_every};
+    const double camera_words[] = {camera->position[0],      camera->position[1],     camera->position[2],
+                                   camera->focal_point[0],   camera->focal_point[1],  camera->focal_point[2],
+                                   camera->view_up[0],       camera->view_up[1],      camera->view_up[2],
+                                   camera->view_angle,       camera->parallel_scale,  camera->parallel ? 1 : 0,
+                                   camera->clip_near,        camera->clip_far,        (double)options->samples,
+                                   camera->window_center[0], camera->window_center[1]};
+    const int picture[] = {options->width,          options->height,      options->steps_per_pass,
+                           options->z_update_every, options->whole_width, options->whole_height,
+                           options->part_x,         options->part_y};
     uint64_t view = hash_bytes(hash_bytes(4, camera_words, sizeof camera_words), picture, sizeof picture);
     return view ? view : 1;
 }

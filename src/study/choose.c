@@ -420,6 +420,7 @@ static tc_status ask_renderer(tc_render_stats *stats, const tc_probe *p, tc_erro
     tc_render_options small = *p->fixed;
     tc_image *image = NULL;
     small.width = small.height = 8;
+    small.whole_width = small.whole_height = small.part_x = small.part_y = 0;
     small.samples = 1;
     small.count = small.audit = false;
     tc_status status = tc_render(&image, stats, p->renderer, p->mesh, p->tf, p->camera, &small, p->log, err);

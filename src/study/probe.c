@@ -75,13 +75,16 @@ static void view_camera(tc_camera *out, int k, const tc_probe *p, double aspect)
                     c->parallel ? 30 : fmin(c->view_angle, 60), aspect);
 }
 
-/* A picture of about CALIBRATION_PIXELS of the same shape, one ray a pixel. */
+/* A whole picture of about CALIBRATION_PIXELS of the same shape, one ray a pixel. */
 static void small_options(tc_render_options *out, const tc_render_options *fixed)
 {
-    double scale = sqrt((double)CALIBRATION_PIXELS / ((double)fixed->width * fixed->height));
+    const double width = fixed->whole_width ? fixed->whole_width : fixed->width;
+    const double height = fixed->whole_width ? fixed->whole_height : fixed->height;
+    double scale = sqrt((double)CALIBRATION_PIXELS / (width * height));
     *out = *fixed;
-    out->width = (int)fmin(fmax(1, round(fixed->width * fmin(scale, 1))), CALIBRATION_PIXELS);
-    out->height = (int)fmin(fmax(1, round(fixed->height * fmin(scale, 1))), CALIBRATION_PIXELS);
+    out->width = (int)fmin(fmax(1, round(width * fmin(scale, 1))), CALIBRATION_PIXELS);
+    out->height = (int)fmin(fmax(1, round(height * fmin(scale, 1))), CALIBRATION_PIXELS);
+    out->whole_width = out->whole_height = out->part_x = out->part_y = 0; /* parts are of the same view */
     out->samples = 1;
     out->count = out->audit = false;
 }

@@ -485,6 +485,66 @@ static void what_cannot_be_drawn_is_refused_and_changes_nothing(void **state)
         assert_true(s->image->rgba[i] == 0);
 }
 
+/* Over a picture that has every kind of background, so that there are soft edges. */
+static void a_part_is_drawn_otherwise_than_the_whole(void **state)
+{
+    static const int size[][2] = {{480, 50}, {97, 61}, {480, 1}, {1, 360}};
+    scene *s = *state;
+    s->figure.title = "Parts of one";
+    s->figure.ink = TC_INK_LIGHT;
+    for (int i = 0; i < 480 * 360; i++) {
+        float *p = s->image->rgba + 4 * i, a = (float)(i / 480 % 7) / 6;
+        p[0] = a * (float)uniform(), p[1] = a * (float)uniform(), p[2] = a, p[3] = a;
+    }
+    tc_image *before, *parts;
+    assert_int_equal(tc_image_create(&before, 480, 360, NULL), TC_OK);
+    assert_int_equal(tc_image_create(&parts, 480, 360, NULL), TC_OK);
+    memcpy(before->rgba, s->image->rgba, 480 * 360 * 4 * sizeof(float));
+    draw(s);
+    assert_true(memcmp(before->rgba, s->image->rgba, 480 * 360 * 4 * sizeof(float)) != 0);
+    for (size_t k = 0; k < sizeof size / sizeof *size; k++) {
+        memset(parts->rgba, 0, 480 * 360 * 4 * sizeof(float));
+        for (int y = 0; y < 360; y += size[k][1])
+            for (int x = 0; x < 480; x += size[k][0]) {
+                const int width = x + size[k][0] < 480 ? size[k][0] : 480 - x;
+                const int height = y + size[k][1] < 360 ? size[k][1] : 360 - y;
+                tc_figure figure = s->figure;
+                tc_image *part;
+                assert_int_equal(tc_image_create(&part, width, height, NULL), TC_OK);
+                for (int row = 0; row < height; row++)
+                    memcpy(at(part, 0, row), at(before, x, y + row), (size_t)width * 4 * sizeof(float));
+                figure.whole_width = 480, figure.whole_height = 360;
+                figure.part_x = x, figure.part_y = y;
+                assert_int_equal(tc_figure_draw(part, &figure, NULL, NULL), TC_OK);
+                for (int row = 0; row < height; row++)
+                    memcpy(at(parts, x, y + row), at(part, 0, row), (size_t)width * 4 * sizeof(float));
+                tc_image_destroy(&part);
+            }
+        assert_memory_equal(parts->rgba, s->image->rgba, 480 * 360 * 4 * sizeof(float));
+    }
+    tc_image_destroy(&before);
+    tc_image_destroy(&parts);
+}
+
+static void a_wrong_part_is_drawn(void **state)
+{
+    static const int wrong[][4] = {
+        {0, 0, 1, 0}, {480, 0, 0, 0}, {500, 400, 30, 0}, {500, 400, 0, 50}, {500, 400, -1, 0}};
+    scene *s = *state;
+    for (size_t i = 0; i <= sizeof wrong / sizeof *wrong; i++) {
+        tc_error err = {0};
+        tc_figure figure = s->figure;
+        const bool automatic = i == sizeof wrong / sizeof *wrong;
+        figure.ink = automatic ? TC_INK_AUTO : TC_INK_DARK;
+        figure.whole_width = automatic ? 500 : wrong[i][0], figure.whole_height = automatic ? 400 : wrong[i][1];
+        figure.part_x = automatic ? 0 : wrong[i][2], figure.part_y = automatic ? 0 : wrong[i][3];
+        assert_int_equal(tc_figure_draw(s->image, &figure, NULL, &err), TC_E_ARG);
+        assert_non_null(strstr(err.text, automatic ? "ink" : "part"));
+    }
+    for (size_t i = 0; i < 4 * 480 * 360; i++)
+        assert_true(s->image->rgba[i] == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -502,6 +562,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(ink_follows_the_background, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_transparent_picture_stays_premultiplied, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_cannot_be_drawn_is_refused_and_changes_nothing, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_part_is_drawn_otherwise_than_the_whole, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_wrong_part_is_drawn, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -309,7 +309,7 @@ static void reset_keeps_a_clipping_range(void **state)
         memset(&c, 0x7e, sizeof c); /* as a caller's own may be: huge numbers */
         c.parallel = parallel;
         tc_camera_reset(&c, BOX, FRONT, UP, 30, 1);
-        assert_true(c.clip_near == 0 && c.clip_far == 0);
+        assert_true(c.clip_near == 0 && c.clip_far == 0 && c.window_center[0] == 0 && c.window_center[1] == 0);
         assert_true(c.parallel == parallel);
         tc_camera same = {.parallel = parallel};
         tc_camera_reset(&same, BOX, FRONT, UP, 30, 1);
@@ -368,6 +368,98 @@ static void shifted_rays_are_not_those_beside(void **state)
     }
 }
 
+/* Where a point is in the picture, -1 … 1 each way. */
+static void project(double out[2], const double clip[16], const double *p)
+{
+    double at[4] = {0, 0, 0, 0};
+    for (int i = 0; i < 16; i++)
+        at[i % 4] += clip[i] * (i < 12 ? p[i / 4] : 1);
+    out[0] = at[0] / at[3], out[1] = at[1] / at[3];
+}
+
+/* The figures come from vtkCamera::GetCompositeProjectionTransformMatrix of VTK 9.1 with SetWindowCenter(0.3, -0.2). */
+static void a_window_centre_is_not_vtks(void **state)
+{
+    (void)state;
+    static const double point[3][3] = {{1.5, 4, 0.5}, {-0.5, 2.5, -3}, {1, 3.5, -1.5}};
+    static const double vtk[2][3][2] = {{{-0.40399810152645582, 0.1332166395237179},
+                                         {-0.37351192982318376, 0.14402762349931739},
+                                         {-0.30000000000000004, 0.19999999999999982}},
+                                        {{-0.39256935479310695, 0.14055571688842528},
+                                         {-0.38963887439618905, 0.13174848165639408},
+                                         {-0.29999999999999993, 0.19999999999999996}}};
+    for (int parallel = 0; parallel < 2; parallel++) {
+        const tc_camera c = {.position = {7.4182199587116378, 8.1720820438885831, 9.6166830626411812},
+                             .focal_point = {1, 3.5, -1.5},
+                             .view_up = {0, 1, 0},
+                             .view_angle = 30,
+                             .parallel_scale = 3.5,
+                             .parallel = parallel,
+                             .window_center = {0.3, -0.2}};
+        tc_rays r;
+        assert_int_equal(tc_rays_from_camera(&r, &c, 350, 200, NULL), TC_OK);
+        for (int i = 0; i < 3; i++) {
+            double at[2], o[3], d[3], along, off[3];
+            project(at, r.clip, point[i]);
+            NEAR(at[0], vtk[parallel][i][0], 1e-14);
+            NEAR(at[1], vtk[parallel][i][1], 1e-14);
+            tc_rays_pixel(o, d, &r, (at[0] + 1) * 175, (at[1] + 1) * 100); /* the ray of that place meets the point */
+            tc_vec_sub(off, point[i], o);
+            along = tc_vec_dot(off, d);
+            tc_vec_mul_add(off, off, -along, d);
+            assert_true(tc_vec_length(off) < 1e-12);
+        }
+    }
+}
+
+static void a_part_has_other_rays_than_the_whole(void **state)
+{
+    (void)state;
+    for (int parallel = 0; parallel < 2; parallel++) {
+        tc_camera c = front(1.5);
+        c.parallel = parallel;
+        c.window_center[0] = -0.2;
+        c.clip_near = 1, c.clip_far = 20;
+        tc_camera_azimuth(&c, 30), tc_camera_elevation(&c, 20);
+        tc_rays whole, part, nested;
+        assert_int_equal(tc_rays_from_camera(&whole, &c, 300, 200, NULL), TC_OK);
+        tc_rays_part(&part, &whole, 0, 0, 300, 200);
+        assert_memory_equal(&part, &whole, sizeof part);
+        tc_rays_part(&part, &whole, 70, 30, 50, 40); /* rows 30 … 69 from above: 130 … 169 from below */
+        tc_rays_part(&nested, &whole, 60, 20, 100, 90);
+        tc_rays_part(&nested, &nested, 10, 10, 50, 40);
+        assert_int_equal(part.width, 50);
+        assert_int_equal(part.height, 40);
+        assert_memory_equal(part.whole_clip, whole.clip, sizeof whole.clip);
+        for (int shifted = 0; shifted < 2; shifted++) {
+            for (int k = 0; k < 5; k++) {
+                const double X = 12 * k + 0.5, Y = 39.5 - 9 * k;
+                double o[3], d[3], range[2], whole_o[3], whole_d[3], whole_range[2], at[2], p[3];
+                tc_rays_pixel(whole_o, whole_d, &whole, X + 70, Y + 130);
+                tc_rays_range(whole_range, &whole, X + 70, Y + 130);
+                for (int n = 0; n < 2; n++) {
+                    const tc_rays *rays = n ? &nested : &part;
+                    tc_rays_pixel(o, d, rays, X, Y);
+                    tc_rays_range(range, rays, X, Y);
+                    assert_memory_equal(o, whole_o, sizeof o);
+                    assert_memory_equal(d, whole_d, sizeof d);
+                    assert_memory_equal(range, whole_range, sizeof range);
+                    tc_vec_mul_add(p, o, 9, d);
+                    project(at, rays->clip, p);
+                    NEAR((at[0] + 1) * 25, X, 1e-10);
+                    NEAR((at[1] + 1) * 20, Y, 1e-10);
+                    project(at, rays->whole_clip, p);
+                    NEAR((at[0] + 1) * 150, X + 70, 1e-10);
+                    NEAR((at[1] + 1) * 100, Y + 130, 1e-10);
+                }
+            }
+            tc_rays_shift(&whole, &whole, 0.375, -0.125);
+            tc_rays_shift(&part, &part, 0.375, -0.125);
+            tc_rays_shift(&nested, &nested, 0.375, -0.125);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -384,6 +476,8 @@ int main(void)
         cmocka_unit_test(reset_keeps_a_clipping_range),
         cmocka_unit_test(shifted_rays_are_not_those_beside),
         cmocka_unit_test(nonsense_moves_poison_the_camera),
+        cmocka_unit_test(a_window_centre_is_not_vtks),
+        cmocka_unit_test(a_part_has_other_rays_than_the_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,7 +35,7 @@ uniform sampler2D opaque_z;
 
 #ifdef LINES
 uniform float line_width;
-flat in vec4 line_ends;
+flat in vec4 line_ends; // in pixels of the whole picture
 flat in vec3 line_from, line_to;
 flat in vec2 line_w;
 
@@ -43,12 +43,13 @@ flat in vec2 line_w;
 // width nearer to the eye, so that a line that is drawn on a surface is seen whole.
 bool meets(out float z, Ray ray)
 {
-    vec2 along = line_ends.zw - line_ends.xy, to = gl_FragCoord.xy - line_ends.xy;
+    vec2 pixel = gl_FragCoord.xy + ray_part;
+    vec2 along = line_ends.zw - line_ends.xy, to = pixel - line_ends.xy;
     float t = clamp(dot(to, along) / max(dot(along, along), 1.0e-30), 0.0, 1.0);
     vec2 off = to - t * along;
     vec3 x = mix(line_from, line_to, t * line_w.x / mix(line_w.y, line_w.x, t)); // t is linear on the screen
     z = dot(x - ray.o, ray.d);
-    vec3 d = vec3(ray_direction + double(gl_FragCoord.x) * ray_direction_dx + double(gl_FragCoord.y) * ray_direction_dy);
+    vec3 d = vec3(ray_direction + double(pixel.x) * ray_direction_dx + double(pixel.y) * ray_direction_dy);
     z -= line_width * length(vec3(ray_point_dx) + z / length(d) * vec3(ray_direction_dx));
     return dot(off, off) <= 0.25 * line_width * line_width;
 }

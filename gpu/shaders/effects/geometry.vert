@@ -14,11 +14,20 @@ flat out int item;
 #ifdef LINES
 uniform isamplerBuffer geometry_lines;
 uniform float line_width; // pixels
-flat out vec4 line_ends;  // in pixels
+uniform vec4 whole_clip[4]; // of the whole picture: what a line is must not depend on its parts
+uniform vec2 whole_size;    // pixels
+uniform vec2 ray_part;      // the part's left lower pixel in it
+flat out vec4 line_ends;    // in pixels of the whole picture
 flat out vec3 line_from, line_to; // the same ends in mesh space
 flat out vec2 line_w;             // and their distances along the view
 const float LINE_NEAREST = 1.0e-6; // of the farther end's distance: nearer to the eye is not drawn
 const float LINE_MORE = 0.5;       // pixels: the fragment decides which belong to the line
+
+vec4 to_whole_clip(vec3 x)
+{
+    vec4 p = whole_clip[0] * x.x + whole_clip[1] * x.y + whole_clip[2] * x.z + whole_clip[3];
+    return vec4(p.xy, 0.0, p.w);
+}
 
 // The part t.x … t.y of a line on which a plane's function, f.x at one end and f.y at the other, is not below 0.
 vec2 line_cut(vec2 t, vec2 f)
@@ -33,9 +42,9 @@ void main()
     int corner = gl_VertexID % 6;
     ivec2 id = texelFetch(geometry_lines, item).xy;
     vec3 from = texelFetch(geometry_vertices, id.x).xyz, to = texelFetch(geometry_vertices, id.y).xyz;
-    vec4 a = to_clip(from), b = to_clip(to);
+    vec4 a = to_whole_clip(from), b = to_whole_clip(to);
     // Cut to the picture and a margin: places far outside of it would be coarse.
-    vec2 margin = 1.0 + 2.0 * (line_width + 2.0) / picture_size;
+    vec2 margin = 1.0 + 2.0 * (line_width + 2.0) / whole_size;
     vec2 t = line_cut(vec2(0.0, 1.0), vec2(a.w, b.w) - LINE_NEAREST * max(a.w, b.w));
     for (int k = 0; k < 2; k++) {
         t = line_cut(t, vec2(a.w, b.w) * margin[k] - vec2(a[k], b[k]));
@@ -48,14 +57,14 @@ void main()
     line_to = mix(from, to, t.y);
     vec4 p = mix(a, b, t.x), q = mix(a, b, t.y);
     line_w = vec2(p.w, q.w);
-    vec2 p_at = (p.xy / p.w * 0.5 + 0.5) * picture_size, q_at = (q.xy / q.w * 0.5 + 0.5) * picture_size;
+    vec2 p_at = (p.xy / p.w * 0.5 + 0.5) * whole_size, q_at = (q.xy / q.w * 0.5 + 0.5) * whole_size;
     line_ends = vec4(p_at, q_at);
     float reach = 0.5 * line_width + LINE_MORE, l = length(q_at - p_at);
     vec2 along = l > 1.0e-6 ? (q_at - p_at) / l : vec2(1.0, 0.0);
     vec2 across = vec2(-along.y, along.x);
     bool first = corner == 0 || corner == 1 || corner == 4, left = corner == 0 || corner == 2 || corner == 3;
     vec2 at = (first ? p_at - along * reach : q_at + along * reach) + across * (left ? reach : -reach);
-    gl_Position = vec4(at / picture_size * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4((at - ray_part) / picture_size * 2.0 - 1.0, 0.0, 1.0);
 }
 #else
 uniform isamplerBuffer geometry_triangles;
