@@ -91,17 +91,9 @@ static size_t tc_digits(int *out, const char *text, int most)
     return n <= TC_DIGITS && *out <= most ? n : SIZE_MAX;
 }
 
-/* How a number is written. */
-typedef struct tc_format {
-    bool zero; /* pad with zeros */
-    int width, precision;
-    char kind; /* d, e, f or g */
-} tc_format;
-
-/* ":04d}" or "}" behind a name; whole: for a whole number. False where it is neither. */
-static bool tc_format_parse(tc_format *out, const char **end, const char *text, bool whole)
+bool tc_number_format_parse(tc_number_format *out, const char **end, const char *text, bool whole)
 {
-    *out = (tc_format){.precision = -1, .kind = whole ? 'd' : 'g'};
+    *out = (tc_number_format){.precision = -1, .kind = whole ? 'd' : 'g'};
     if (*text == ':') {
         text++;
         out->zero = *text == '0';
@@ -129,13 +121,13 @@ static bool tc_format_parse(tc_format *out, const char **end, const char *text, 
     return true;
 }
 
-static int tc_number_write(char *out, size_t capacity, const tc_format *f, double value)
+int tc_number_format_write(char *out, size_t capacity, const tc_number_format *f, double value)
 {
     const int w = f->width, p = f->precision;
     switch (f->kind) {
     case 'd':
-        return f->zero ? snprintf(out, capacity, "%0*lld", w, llround(value))
-                       : snprintf(out, capacity, "%*lld", w, llround(value));
+        value = round(value) + 0.0; /* -0 becomes 0 */
+        return f->zero ? snprintf(out, capacity, "%0*.0f", w, value) : snprintf(out, capacity, "%*.0f", w, value);
     case 'e':
         return f->zero ? snprintf(out, capacity, "%0*.*e", w, p, value) : snprintf(out, capacity, "%*.*e", w, p, value);
     case 'f':
@@ -157,12 +149,12 @@ static bool tc_field_put(tc_text *name, const char **text, int step, double time
     for (size_t i = 0; i < TC_PLACEHOLDERS; i++) {
         size_t length = strlen(tc_placeholder[i].name);
         char number[400];
-        tc_format format;
+        tc_number_format format;
         if (strncmp(*text, tc_placeholder[i].name, length) != 0)
             continue;
-        if (!tc_format_parse(&format, text, *text + length, tc_placeholder[i].whole))
+        if (!tc_number_format_parse(&format, text, *text + length, tc_placeholder[i].whole))
             return false;
-        int n = tc_number_write(number, sizeof number, &format, tc_placeholder[i].whole ? step : time);
+        int n = tc_number_format_write(number, sizeof number, &format, tc_placeholder[i].whole ? step : time);
         tc_put(name, number, n > 0 && (size_t)n < sizeof number ? (size_t)n : 0);
         return true;
     }

@@ -27,6 +27,19 @@ size_t tc_step_range_list(int *step, size_t capacity, const tc_step_range *range
 bool tc_step_name(char *out, size_t capacity, const char *pattern, int step, double time, char *why,
                   size_t capacity_why);
 
+/* How a number stands in a name. */
+typedef struct tc_number_format {
+    bool zero; /* pad with zeros */
+    int width, precision;
+    char kind; /* d (rounds), e, f or g */
+} tc_number_format;
+
+/* ":04d}" or "}" behind a placeholder's name; whole: for a whole number, which d alone writes. *end comes behind the
+ * brace. False where it is neither. */
+bool tc_number_format_parse(tc_number_format *out, const char **end, const char *text, bool whole);
+/* As snprintf: the characters that it takes. */
+int tc_number_format_write(char *out, size_t capacity, const tc_number_format *format, double value);
+
 /* Has the pattern a {step} or a {time}? Braces in pairs are none. */
 bool tc_step_is_in_name(const char *pattern);
 
