@@ -1,5 +1,5 @@
 # lib.sh: what the tests of the program share. From ctest: TETCAST (program), TC_SOURCE, TC_BUILD, TC_JSON (json_check),
-# TC_PIXELS (png_pixels).
+# TC_PIXELS (png_pixels), TC_CINEMA (cinema_check).
 set -u
 here=$TC_SOURCE/tests/cli
 work=$(mktemp -d)

@@ -94,6 +94,18 @@ static void put(const char *path, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
+/* The validator, which lies beside this test, finds nothing wrong. */
+static void keeps_the_rules(void)
+{
+    char self[256], command[512];
+    ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
+    assert_true(n > 0);
+    self[n] = 0;
+    *strrchr(self, '/') = 0;
+    snprintf(command, sizeof command, "'%s/cinema_check' '%s'", self, cdb);
+    assert_int_equal(system(command), 0);
+}
+
 static void nothing_stays_beside(void)
 {
     char path[160];
@@ -138,17 +150,20 @@ static void a_float_is_not_read_as_it_was_or_has_no_point(void **state)
 static void the_locale_changes_the_table(void **state)
 {
     (void)state;
-    static const char *const name[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "nl_NL.UTF-8"};
-    bool found = false;
-    for (size_t i = 0; i < 4 && !found; i++)
-        found = setlocale(LC_ALL, name[i]) != NULL;
-    if (!found)
+    char command[200];
+    snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 '%s/de_DE.UTF-8' >%s/said 2>&1", folder, folder);
+    (void)!system(command);
+    setenv("LOCPATH", folder, 1);
+    if (!setlocale(LC_ALL, "de_DE.UTF-8"))
         skip();
     char text[64];
     double value;
+    snprintf(text, sizeof text, "%.1f", 2.5);
+    bool comma = !strcmp(text, "2,5");
     tc_csv_float(text, 2.5);
     bool read = tc_csv_read_float(&value, "2.5");
     setlocale(LC_ALL, "C");
+    assert_true(comma);
     assert_string_equal(text, "2.5");
     assert_true(read && value == 2.5);
 }
@@ -228,6 +243,7 @@ static void the_order_of_adding_changes_the_bytes(void **state)
                                "10.0,1,\"warm, dark\",b.png,\n"
                                ",7,cool,c.png,\n";
     assert_string_equal(content(csv), want);
+    keeps_the_rules();
     nothing_stays_beside();
     remove(csv);
     for (int part = 0; part < 2; part++) { /* two runs, the other way round */
@@ -394,6 +410,7 @@ static void shards_lose_rows_of_each_other(void **state)
     (void)state;
     add_share(0, 1);
     char *one = strdup(content(csv));
+    keeps_the_rules();
     size_t lines = 0;
     for (const char *p = one; *p; p++)
         lines += *p == '\n';
@@ -503,7 +520,7 @@ int main(void)
 {
     const struct CMUnitTest test[] = {
         cmocka_unit_test(a_float_is_not_read_as_it_was_or_has_no_point),
-        cmocka_unit_test(the_locale_changes_the_table),
+        CASE(the_locale_changes_the_table),
         cmocka_unit_test(a_text_is_not_read_as_it_was_written),
         cmocka_unit_test(a_text_is_taken_for_a_number),
         CASE(the_order_of_adding_changes_the_bytes),

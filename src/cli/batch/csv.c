@@ -77,6 +77,8 @@ int tc_csv_next(tc_csv_reader *reader, tc_csv_cell *cell, size_t capacity, size_
 
 void tc_csv_put(tc_csv_text *out, const char *bytes, size_t n)
 {
+    if (!n)
+        return;
     if (out->failed || n > SIZE_MAX / 4 - out->n) {
         out->failed = true;
         return;
