@@ -20,6 +20,8 @@ enum {
     TC_NEEDS_SUMS = 64,        /* what segments add can be told from what was there: any integrator but the table */
     TC_NEEDS_WAY =
         128, /* rays keep tc_state_set.at from one entry to the next: no first hit but the first empties it */
+    TC_NEEDS_NUMBERS = 256, /* what a picture of colours may leave out counts: small changes of the function; what lies
+                               behind where a ray is nearly opaque, so that rays end where shaders say */
 };
 
 /* Images of what effects fetch (fetch.glsl) where the renderer is software, which has few: a row of each line at a

@@ -18,6 +18,8 @@ typedef struct tc_job {
     const tc_gpu_mesh *mesh;
     const tc_gpu_transfer *transfer;
     const tc_frame *frame;
+    double view[4]; /* of the point at depth z on a ray of direction d: distance (view . d) z + view[3] from the eye's
+                       plane, in the mesh's unit; of this frame */
     const tc_proposals *proposals; /* of this frame */
     GLuint hit_array, hit_buffer;  /* vertex array and buffer for them */
     GLuint entry_counter;          /* buffer of first_hit.frag's counters */

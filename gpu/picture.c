@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "core/vec.h"
 #include "gpu/accumulate.h"
 #include "gpu/audit.h"
 #include "gpu/effect.h"
@@ -88,13 +89,27 @@ static tc_status add_result(tc_picture *p, const tc_job_result *one, tc_error *e
     return TC_OK;
 }
 
+/* The frame of rays, which stays until the next one, for what makes colours of what they gathered; how depths on them
+ * lie before the eye. */
+static void set_view(tc_job *job, const tc_picture *p)
+{
+    const tc_frame *frame = &p->rays_now;
+    const double *axis = p->rays->axis;
+    job->frame = frame;
+    job->view[3] = -tc_vec_dot(p->rays->eye, axis);
+    for (int k = 0; k < 3; k++) {
+        job->view[k] = axis[k] / p->scale;
+        job->view[3] += axis[k] * (p->center[k] + frame->point[k] / p->scale);
+    }
+}
+
 /* A frame: a ray through each pixel, or each marked one, at place k of a grid of edge * edge in it. touch: pixels that
  * it has to touch besides its own, or NULL. Gives result.twice above 0, and nothing else, where it has to be peeled. */
 static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_error *err)
 {
     tc_job *job = p->job;
     const tc_gl *gl = job->gl;
-    tc_frame rays;
+    tc_frame *now = &p->rays_now;
     tc_rays shifted;
     tc_job_result one = {0};
     tc_status status = TC_OK;
@@ -102,15 +117,15 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
         clear_steps(job);
     double start = tc_now_ms();
     tc_rays_shift(&shifted, p->rays, tc_samples_offset(k % edge, edge), tc_samples_offset(k / edge, edge));
-    tc_frame_build(&rays, &shifted, p->center, p->scale);
-    job->frame = &rays;
+    tc_frame_build(now, &shifted, p->center, p->scale);
+    set_view(job, p);
     job->proposals = p->proposals;
     int *rect = p->proposals->rect;
     p->proposals->n = 0;
     memset(rect, 0, sizeof p->proposals->rect);
-    if (!rays.hidden)
-        status = tc_propose(p->proposals, &rays, p->options->width, p->options->height, p->face_corner,
-                            job->mesh->n_face, err);
+    if (!now->hidden)
+        status = tc_propose(p->proposals, now, p->options->width, p->options->height, p->face_corner, job->mesh->n_face,
+                            err);
     const bool effect_frame = job->effects && tc_effects_have_frame(job->effects);
     if (effect_frame) /* is seen anywhere */
         unite_rects(rect, (const int[4]){0, 0, p->options->width, p->options->height});
@@ -131,7 +146,6 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
     if (status == TC_OK && one.twice == 0)
         status = add_result(p, &one, err);
     free(one.fragments);
-    job->frame = NULL;
     unite_rects(p->drawn, rect);
     if (status == TC_OK && one.twice == 0 && job->count) {
         start = tc_now_ms();

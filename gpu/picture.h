@@ -16,6 +16,7 @@ typedef struct tc_picture {
     tc_proposals *proposals;
     int *drawn; /* [4] the part of state.result that is not empty; becomes this picture's */
 
+    tc_frame rays_now;      /* of the frame that is made, or was made last */
     tc_render_stats *stats; /* gets refined and, if counted, steps and steps_max */
     tc_job_result result;   /* sums over all frames; fragments: those of one frame after another */
     double ms_aside;        /* spent on reading counters, which is not rendering */

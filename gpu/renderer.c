@@ -417,6 +417,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
             .length_unit = job.length_unit,
             .cell_data = job.cell_data,
             .pieces_only = (effects.needs & TC_NEEDS_PIECES) != 0,
+            .numbers = (effects.needs & TC_NEEDS_NUMBERS) != 0,
             .threads = r->threads,
         };
         job.integrator = TC_INTEGRATOR_EXACT;
@@ -439,7 +440,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
     double stop = options->opacity_stop > 0                    ? options->opacity_stop
                   : options->integrator == TC_INTEGRATOR_EXACT ? OPACITY_STOP_EXACT
                                                                : OPACITY_STOP;
-    job.transmittance_stop = stop >= 1 ? -1 : 1 - stop;
+    job.transmittance_stop = effects.needs & TC_NEEDS_NUMBERS ? 0 : stop >= 1 ? -1 : 1 - stop;
     job.count = options->count || options->audit;
     job.audit = options->audit;
     job.planes = planes;

@@ -13,6 +13,7 @@
 
 static const double MAP_MOST = 1e30;                            /* x beyond is the same piece: pieces.glsl */
 static const double THIN = 2.5e-4;                              /* of a function: an eighth of 1/510 */
+static const double THIN_NUMBERS = 1e-8;                        /* … where floats tell nothing */
 static const double HARD_ROUNDING = 2e-4, HARD_RELATIVE = 1e-3; /* of optical depth */
 static const double NEAR_LEAST = 1.0 / 16384;                   /* smallest difference of x that cumulatives resolve */
 
@@ -159,13 +160,14 @@ static tc_status ensure_thin(tc_transfer_gpu *t, tc_transfer_gpu_request *reques
     request->pieces = tf;
     if (request->options->integrator == TC_INTEGRATOR_EXACT || request->options->integrator == TC_INTEGRATOR_TABLE)
         return TC_OK;
-    if (t->thin_serial != tf->serial) {
+    if (t->thin_serial != tf->serial || t->thin_numbers != request->numbers) {
         tc_transfer_destroy(&t->thin);
         t->thin_serial = 0;
-        tc_status status = tc_transfer_thin(&t->thin, tf, THIN, err);
+        tc_status status = tc_transfer_thin(&t->thin, tf, request->numbers ? THIN_NUMBERS : THIN, err);
         if (status != TC_OK)
             return status;
         t->thin_serial = tf->serial;
+        t->thin_numbers = request->numbers;
     }
     request->pieces = t->thin;
     return TC_OK;
@@ -191,7 +193,9 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
                               .hard = plan.hard,
                               .thin = t->thin,
                               .thin_serial = t->thin_serial,
-                              .thinned = request->pieces == t->thin};
+                              .thin_numbers = t->thin_numbers,
+                              .thinned = request->pieces == t->thin,
+                              .numbers = request->numbers};
     if (wanted.integrator == TC_INTEGRATOR_TABLE) {
         static const int paper_size[3] = {128, 128, 256};
         for (int k = 0; k < 3; k++)
@@ -203,7 +207,7 @@ tc_status tc_transfer_gpu_ensure(tc_transfer_gpu *t, tc_job *job, const tc_trans
     }
     bool same = t->serial == wanted.serial && t->integrator == wanted.integrator && t->format == wanted.format &&
                 memcmp(t->size, wanted.size, sizeof t->size) == 0 && t->hard == wanted.hard &&
-                t->thinned == wanted.thinned && t->length_max == wanted.length_max &&
+                t->thinned == wanted.thinned && t->numbers == wanted.numbers && t->length_max == wanted.length_max &&
                 memcmp(t->scalar, wanted.scalar, sizeof t->scalar) == 0;
     if (!same) {
         tc_gpu_transfer_finish(&t->textures, gl);

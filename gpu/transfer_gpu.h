@@ -14,6 +14,7 @@ typedef struct tc_transfer_gpu_request {
     double length_unit; /* mesh space → unit distances */
     bool cell_data;
     bool pieces_only; /* an effect needs the function piece by piece */
+    bool numbers;     /* what is made of it are not colours: knots are left out where nothing changes */
     int threads;
 } tc_transfer_gpu_request;
 
@@ -22,7 +23,9 @@ typedef struct tc_transfer_gpu {
     uint64_t serial;      /* of the transfer function uploaded; 0: none */
     tc_transfer *thin;    /* a function of fewer knots that stands for it in pieces */
     uint64_t thin_serial; /* of the function that it stands for */
+    bool thin_numbers;    /* … for numbers */
     bool thinned;         /* its pieces are uploaded */
+    bool numbers;         /* … of the one for numbers */
     tc_integrator integrator;
     tc_table_format format;
     int size[3]; /* of the table; nodes */

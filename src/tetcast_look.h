@@ -46,9 +46,10 @@ TC_API void tc_field_info(double range[2], tc_association *association, const ch
  *   DEPTH            no colours but numbers, of the place where what the density emitter's ray has gathered first has an
  *                    opacity of depth_opacity (isosurfaces and geometry count): r is its distance from the eye's plane along
  *                    the view (as of clip_near), g the scalar there (of geometry 0), b 0, a 1. All 0 where the ray stays
- *                    clearer. In the part of a cell that reaches it, with transmittances T0 > T >= T1 before it, wanted and
- *                    behind it, the place is at ln(T0/T) / ln(T0/T1) of its length (T1 = 0: at its beginning), the scalar
- *                    linear between its ends. One ray a pixel; no light, no color_field */
+ *                    clearer. In the part of a cell that reaches it (cells are cut by clipping, and where surfaces lie),
+ *                    with transmittances T0 > T >= T1 before it, wanted and behind it, the place is at ln(T0/T) / ln(T0/T1)
+ *                    of its length (T1 = 0: at its beginning), the scalar linear between its ends, or 0 where it has the
+ *                    colour of missing values. One ray a pixel; no light, no color_field; opacity_stop is not looked at */
 typedef enum tc_model {
     TC_MODEL_DENSITY_EMITTER = 0,
     TC_MODEL_EMISSION = 1,
@@ -137,7 +138,7 @@ typedef struct tc_geometry {
 
 typedef struct tc_look {
     tc_model model;
-    double depth_opacity; /* of DEPTH, 0 … 1; 0: 0.5 */
+    double depth_opacity; /* of DEPTH, 0 … 1; 0: 0.5; 1: all but 1e-16 of the light is held back */
     int n_iso;
     const tc_iso *iso; /* [n_iso] values all different */
     tc_shade shade;

@@ -119,7 +119,7 @@ static const char *looks_at_cells(const tc_effect_scene *scene)
     const tc_look *look = scene->look;
     const tc_model model = look->model;
     if (model != TC_MODEL_DENSITY_EMITTER && model != TC_MODEL_EMISSION && model != TC_MODEL_ABSORPTION &&
-        model != TC_MODEL_XRAY)
+        model != TC_MODEL_XRAY && model != TC_MODEL_DEPTH)
         return "the model looks at all cells";
     if (look->n_iso > 0)
         return "isosurfaces may lie in transparent cells";

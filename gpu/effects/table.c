@@ -10,6 +10,7 @@ const tc_effect *const tc_effect_table[] = {
     &tc_effect_minimum,
     &tc_effect_average,
     &tc_effect_surfaces,
+    &tc_effect_depth,
     &tc_effect_empty_space,
     &tc_effect_select, /* before what asks whether a cell is real */
     &tc_effect_clip,

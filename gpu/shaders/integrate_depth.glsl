@@ -6,7 +6,7 @@ struct Gathered {
     vec3 rgb;
     float depth;         // optical depth so far
     float transmittance; // exp(-depth)
-};
+}; //@then gathered_declare
 
 Gathered gathered_begin(vec4 color)
 {

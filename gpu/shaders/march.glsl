@@ -92,7 +92,7 @@ void march_step(inout Walk w, Ray ray, inout Integral integral)
         integral_enter(integral, segment.s1);
     }
 #endif
-    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * march_unit : 0.0); //@or march_add
+    integral_add(integral, segment.s1, segment.real ? (segment.z1 - segment.z0) * march_unit : 0.0); //@or march_add //@then march_taken
 }
 
 // Ends the ray where it is opaque.
@@ -141,7 +141,7 @@ int march(inout ivec4 walk, inout vec4 color, inout ivec4 at, vec2 pixel)
 #ifdef PIECES_TWICE
             if (open)
                 open = integral_round(integral);
-#endif
+#endif //@then march_round
             if (!open) //@or march_added
                 march_stop(w, integral); //@or march_added
         } while (GOES_ON && !integral_waits(integral) && walk_fast(w, ray)); //@or march_again

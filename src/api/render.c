@@ -105,6 +105,10 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
         return tc_fail(err, TC_E_ARG, "a pixel cannot have %d rays; take 1, 4, 16 or %d (adaptive)", options->samples,
                        TC_SAMPLES_ADAPTIVE);
     }
+    if (options->look && options->look->model == TC_MODEL_DEPTH && options->samples != 0 && options->samples != 1)
+        return tc_fail(err, TC_E_ARG,
+                       "depth is of one ray a pixel, since a mean of depths is the depth of nothing; take 1 for "
+                       "samples, or another model");
     if (options->audit && options->samples != 0 && options->samples != 1)
         return tc_fail(err, TC_E_ARG, "an audit is of one ray a pixel; take 1 for samples, or leave the audit out");
     switch ((int)options->state_format) {

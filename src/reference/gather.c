@@ -1,5 +1,6 @@
 /* gather.c: what a ray sees of a mesh with a look: the optical models (Max 1995), isosurfaces, light, a second field
- * for colour, and geometry, composited front to back. Within a cell all values are linear along the ray. */
+ * for colour, and geometry, composited front to back; or
+ * where such a ray has a given opacity. Within a cell all values are linear along the ray. */
 #include "core/vec.h"
 #include "reference/look.h"
 #include "reference/segment.h"
@@ -23,6 +24,9 @@ typedef struct walk {
     tc_segment_sum sum;
     double least, most, integral, length; /* of finite scalars; length: scaled */
     double last_t, last_s;                /* where the cell before was left; NAN: no cell, or no value */
+    double wanted;                        /* DEPTH: the transmittance whose place is looked for; negative: none */
+    bool found;
+    double place_t, place_s; /* where it is, scaled, and the scalar there */
 } walk;
 
 /* One cell's part of it. */
@@ -44,18 +48,44 @@ static double between(double a, double b, double x)
     return x < 0.5 ? a + x * (b - a) : b + (1 - x) * (a - b);
 }
 
+/* ------------------------------------------------------------------------------------------------------- a place */
+
+/* A part of the ray from t0 to t1, where the scalar is s0 and s1, has been composited; before it was `before` clear. */
+static void find_place(walk *w, double before, double t0, double t1, double s0, double s1)
+{
+    if (w->found || !(before > w->wanted && w->sum.clear <= w->wanted))
+        return;
+    double x = w->sum.clear > 0 ? log(before / w->wanted) / log(before / w->sum.clear) : 0;
+    w->found = true;
+    w->place_t = between(t0, t1, fmin(x, 1));
+    w->place_s = between(s0, s1, fmin(x, 1));
+}
+
+/* Instead of colours: the distance from the ray's origin and the scalar. */
+static void give_place(double rgba[4], const walk *w)
+{
+    rgba[0] = w->found ? (w->line->start + w->place_t) / w->reference->scale : 0;
+    rgba[1] = w->found ? w->place_s : 0;
+    rgba[2] = 0;
+    rgba[3] = w->found;
+}
+
 /* ---------------------------------------------------------------------------------------------------- surfaces */
 
-static void add_surface(walk *w, const double color[3], double opacity)
+/* At depth t, where the scalar is s. */
+static void add_surface(walk *w, const double color[3], double opacity, double t, double s)
 {
+    const double before = w->sum.clear;
     for (int c = 0; c < 3; c++)
         w->sum.rgba[c] += w->sum.clear * opacity * color[c];
     w->sum.rgba[3] += w->sum.clear * opacity;
     w->sum.clear *= 1 - opacity;
+    find_place(w, before, t, t, s, s);
 }
 
 static void add_meeting(walk *w)
 {
+    const double t = w->meeting[w->met].t;
     uint32_t shape = w->meeting[w->met++].shape;
     const tc_geometry *geometry = &w->look->geometry[w->ready->shapes.triangle[shape].geometry];
     double normal[3], color[3];
@@ -65,7 +95,7 @@ static void add_meeting(walk *w)
         tc_lit lit = tc_lit_by(&w->look->shade, normal, w->eye, false);
         tc_lit_color(color, &lit, geometry->color);
     }
-    add_surface(w, color, geometry->opacity);
+    add_surface(w, color, geometry->opacity, t, 0);
 }
 
 /* The isosurface at x, from 0 to 1, in the cell. */
@@ -89,7 +119,7 @@ static void add_iso(walk *w, const cell *c, const tc_iso *iso, double x)
             tc_lit_color(color, &lit, rgba);
         }
     }
-    add_surface(w, color, iso->opacity);
+    add_surface(w, color, iso->opacity, between(c->hit->t0, c->hit->t1, x), iso->value);
 }
 
 /* ------------------------------------------------------------------------------------------------------ volume */
@@ -97,7 +127,8 @@ static void add_iso(walk *w, const cell *c, const tc_iso *iso, double x)
 /* The volume of the cell from x0 to x1, where the scalar is s0 and s1. */
 static void add_volume(walk *w, const cell *c, double x0, double x1, double s0, double s1)
 {
-    double length = (x1 - x0) * (c->hit->t1 - c->hit->t0) / w->reference->scale / w->unit;
+    const double length = (x1 - x0) * (c->hit->t1 - c->hit->t0) / w->reference->scale / w->unit;
+    const double before = w->sum.clear, t0 = c->hit->t0, t1 = c->hit->t1;
     if (projects(w->look->model) || w->look->model == TC_MODEL_SURFACES)
         return;
     if (c->known)
@@ -105,6 +136,7 @@ static void add_volume(walk *w, const cell *c, double x0, double x1, double s0, 
                               length);
     else if (w->reference->has_nan_color)
         tc_segment_add_matter_constant(&w->sum, &c->matter, w->reference->nan_color, length);
+    find_place(w, before, between(t0, t1, x0), between(t0, t1, x1), c->known ? s0 : 0, c->known ? s1 : 0);
 }
 
 /* The light on the cell at one end. */
@@ -238,6 +270,14 @@ static void add_cell(walk *w, const cell *c)
     }
 }
 
+/* 1 - opacity, as far as there is a ray behind it to tell. */
+static double wanted_of(const tc_look *look)
+{
+    if (look->model != TC_MODEL_DEPTH)
+        return -1;
+    return fmax(1 - (look->depth_opacity > 0 ? look->depth_opacity : 0.5), 1e-16);
+}
+
 /* The colour of what was measured lies behind all that was composited. */
 static void add_projection(walk *w)
 {
@@ -247,7 +287,7 @@ static void add_projection(walk *w)
     if (w->look->model == TC_MODEL_AVERAGE)
         value = fmin(fmax(w->integral / w->length, w->least), w->most);
     tc_segment_value(rgba, w->tf, value);
-    add_surface(w, rgba, 1);
+    add_surface(w, rgba, 1, NAN, value);
 }
 
 tc_status tc_look_gather(tc_reference_ray *out, const tc_reference *reference, const tc_transfer *tf, double unit,
@@ -265,7 +305,8 @@ tc_status tc_look_gather(tc_reference_ray *out, const tc_reference *reference, c
               .sum = {.clear = 1},
               .least = INFINITY,
               .most = -INFINITY,
-              .last_t = NAN};
+              .last_t = NAN,
+              .wanted = wanted_of(reference->look->look)};
     if (!tc_shapes_meet(&w.n_meeting, scratch, &w.ready->shapes, line))
         return TC_E_MEMORY;
     w.meeting = scratch->meeting;
@@ -291,5 +332,7 @@ tc_status tc_look_gather(tc_reference_ray *out, const tc_reference *reference, c
         add_projection(&w);
     for (int i = 0; i < 4; i++)
         out->rgba[i] = w.sum.rgba[i];
+    if (w.look->model == TC_MODEL_DEPTH)
+        give_place(out->rgba, &w);
     return TC_OK;
 }

@@ -184,3 +184,13 @@ void tc_look_cut(tc_line *line, const tc_reference *reference)
         cut_plane(line, reference, normal, sign * look->box[k]);
     }
 }
+
+void tc_look_depth(double rgba[4], const tc_reference *reference, const tc_rays *rays, const double origin[3],
+                   const double direction[3])
+{
+    double from_eye[3];
+    if (!reference->look || reference->look->look->model != TC_MODEL_DEPTH || rgba[3] == 0)
+        return;
+    tc_vec_sub(from_eye, origin, rays->eye);
+    rgba[0] = tc_vec_dot(from_eye, rays->axis) + rgba[0] * tc_vec_dot(direction, rays->axis);
+}

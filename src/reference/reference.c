@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "core/vec.h"
+#include "reference/look.h"
 #include "reference/trace.h"
 #include "scene/samples.h"
 
@@ -205,6 +206,7 @@ static tc_status trace_grid(double *out, double *spread, int edge, const tc_refe
         tc_status status = tc_reference_trace(&ray, r, tf, unit, origin, direction, range, worker);
         if (status != TC_OK)
             return status;
+        tc_look_depth(ray.rgba, r, rays, origin, direction);
         for (int c = 0; c < 4; c++) {
             sum[c] += ray.rgba[c];
             least[c] = fmin(least[c], ray.rgba[c]);

@@ -37,6 +37,7 @@ void tc_reference_set_nan_color(tc_reference *reference, const double *color);
  *   a field for colour that is not finite in a cell makes the cell one whose values are not finite
  *   geometry     triangles as they are: neither planes nor box nor selection cut them, only the camera's near and far do;
  *                lines are not drawn. With MAXIMUM, MINIMUM and AVERAGE it is all in front of the picture
+ *   DEPTH        in pixels as tetcast_look.h says; of a ray by itself r is the distance from its origin
  *   nan color    lit by nothing; 0 with ABSORPTION, 1 with XRAY; not seen with SURFACES, MAXIMUM, MINIMUM, AVERAGE
  * Errors: TC_E_ARG (a field of another size, a colour field without function, isosurfaces of cell data, geometry with
  * vertices that are missing or not finite), TC_E_MEMORY; the look is plain then. Cost: O(n), with gradients of cell data

@@ -34,6 +34,7 @@ void tc_line_init(tc_line *out, const tc_reference *reference, const double orig
     tc_vec_normalize(out->d);
     double t = -tc_vec_dot(o, out->d);
     tc_vec_mul_add(out->base, o, t, out->d);
+    out->start = t;
     out->t_min = range[0] * reference->scale - t;
     out->t_max = range[1] * reference->scale - t;
     out->unsure = out->rounding = out->data = 0;

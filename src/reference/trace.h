@@ -46,6 +46,7 @@ struct tc_reference {
 typedef struct tc_line {
     double base[3], u[3], v[3], d[3]; /* orthonormal u, v, d */
     double t_min, t_max;              /* what is seen */
+    double start;                     /* t of the origin that it was made with is -start */
     double unsure; /* overlapping runs: by how much their entries are moved against each other (overlap.c); 0 */
     double
         rounding;  /* each vertex is moved at random by up to this along each axis; 0. At most 1e-6: boxes are padded */

@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "reference/ill_posed.h"
+#include "reference/look.h"
 #include "scene/samples.h"
 
 #include <float.h>
@@ -66,16 +67,22 @@ static double scalar_range(const tc_mesh *mesh)
 
 /* -------------------------------------------------------------------------------------------------------- tracing */
 
+/* One ray of a pixel. */
+typedef struct pixel_ray {
+    double origin[3], direction[3];
+    tc_line line;
+} pixel_ray;
+
 /* Ray number `ray` of pixel k. */
-static void pixel_line(tc_line *out, const tc_truth *t, size_t k, int ray)
+static void find_ray(pixel_ray *out, const tc_truth *t, size_t k, int ray)
 {
     size_t at = t->pixel[k], width = (size_t)t->rays.width;
     double X = (double)(at % width) + 0.5 + tc_samples_offset(ray % t->edge, t->edge);
     double Y = (double)t->rays.height - (double)(at / width) - 0.5 + tc_samples_offset(ray / t->edge, t->edge);
-    double origin[3], direction[3], range[2];
-    tc_rays_pixel(origin, direction, &t->rays, X, Y);
+    double range[2];
+    tc_rays_pixel(out->origin, out->direction, &t->rays, X, Y);
     tc_rays_range(range, &t->rays, X, Y);
-    tc_line_init(out, t->reference, origin, direction, range);
+    tc_line_init(&out->line, t->reference, out->origin, out->direction, range);
 }
 
 static tc_status trace_pixel(tc_truth *t, size_t k, int worker)
@@ -83,12 +90,13 @@ static tc_status trace_pixel(tc_truth *t, size_t k, int worker)
     int rays = t->edge * t->edge;
     double *color = t->color + 4 * k;
     for (int i = 0; i < rays; i++) {
-        tc_line line;
+        pixel_ray one;
         tc_reference_ray ray;
-        pixel_line(&line, t, k, i);
-        tc_status status = tc_line_trace(&ray, t->reference, t->tf, t->unit, &line, 0, worker);
+        find_ray(&one, t, k, i);
+        tc_status status = tc_line_trace(&ray, t->reference, t->tf, t->unit, &one.line, 0, worker);
         if (status != TC_OK)
             return status;
+        tc_look_depth(ray.rgba, t->reference, &t->rays, one.origin, one.direction);
         for (int c = 0; c < 4; c++)
             color[c] += ray.rgba[c];
     }
@@ -103,13 +111,13 @@ static tc_status judge_pixel(tc_truth *t, size_t k, int worker)
     int rays = t->edge * t->edge;
     double left = TC_ILL_POSED_MOVE * rays;
     for (int i = 0; i < rays && left >= 0; i++) {
-        tc_line line;
+        pixel_ray one;
         tc_reference_ray ray;
         double sway;
-        pixel_line(&line, t, k, i);
-        tc_status status = tc_line_trace(&ray, t->reference, t->tf, t->unit, &line, 0, worker);
+        find_ray(&one, t, k, i);
+        tc_status status = tc_line_trace(&ray, t->reference, t->tf, t->unit, &one.line, 0, worker);
         if (status == TC_OK)
-            status = tc_line_sway(&sway, t->reference, t->tf, t->unit, t->range, &line, ray.rgba, left, worker);
+            status = tc_line_sway(&sway, t->reference, t->tf, t->unit, t->range, &one.line, ray.rgba, left, worker);
         if (status != TC_OK)
             return status;
         left -= sway;

@@ -89,8 +89,9 @@ static bool is_direction(const double *x)
     return length > 1e-150 && length < 1e150;
 }
 
-static const char *const model_name[] = {"the density emitter", "emission", "absorption",        "maximum intensity",
-                                         "isosurfaces alone",   "an X-ray", "minimum intensity", "average intensity"};
+static const char *const model_name[] = {"the density emitter", "emission",          "absorption",
+                                         "maximum intensity",   "isosurfaces alone", "an X-ray",
+                                         "minimum intensity",   "average intensity", "depth"};
 
 static bool shows_one_scalar(tc_model model)
 {
@@ -189,6 +190,8 @@ static bool wrong_shade(sentence s, const tc_look *look)
         return false;
     if (wrong_lights(s, shade))
         return true;
+    if (look->model == TC_MODEL_DEPTH)
+        return wrong(s, "depth is a number, not a colour that light could change; leave the gradient out");
     if (look->model == TC_MODEL_DENSITY_EMITTER || look->model == TC_MODEL_SURFACES)
         return false;
     if (shade->volume)
@@ -219,7 +222,7 @@ static bool wrong_color(sentence s, const tc_look *look, const tc_mesh *mesh)
         return wrong(s, "there is a field to colour by, but no function of its colours; give both or neither");
     if (!look->color_field)
         return false;
-    if (look->model == TC_MODEL_ABSORPTION || look->model == TC_MODEL_XRAY)
+    if (look->model == TC_MODEL_ABSORPTION || look->model == TC_MODEL_XRAY || look->model == TC_MODEL_DEPTH)
         return wrong(s,
                      "%s shows no colours that a second field could give; leave that field out, or take another model",
                      model_name[look->model]);
@@ -306,9 +309,10 @@ const char *tc_look_wrong(char *why, size_t capacity, const tc_look *look, const
     const sentence s = {why, capacity};
     if (!look)
         return NULL;
-    if ((int)look->model < TC_MODEL_DENSITY_EMITTER || (int)look->model > TC_MODEL_AVERAGE)
-        wrong(s, "model %d is unknown; there are %d to %d", (int)look->model, TC_MODEL_DENSITY_EMITTER,
-              TC_MODEL_AVERAGE);
+    if ((int)look->model < TC_MODEL_DENSITY_EMITTER || (int)look->model > TC_MODEL_DEPTH)
+        wrong(s, "model %d is unknown; there are %d to %d", (int)look->model, TC_MODEL_DENSITY_EMITTER, TC_MODEL_DEPTH);
+    else if (look->model == TC_MODEL_DEPTH && !is_share(look->depth_opacity))
+        wrong(s, "depth is looked for at opacity %g; opacities lie in 0 to 1 (0: 0.5)", look->depth_opacity);
     else if (!mesh->prepared)
         wrong(s, "the mesh was not prepared; call tc_mesh_prepare first");
     else if (!wrong_list(s, look->n_geometry, look->geometry, "geometries") && !wrong_geometry(s, look, mesh) &&

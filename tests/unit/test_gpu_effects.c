@@ -78,11 +78,11 @@ static void looks_end(looks *l)
 /* The look that turns on this row; false where the test does not know the row: then it is to be added here. */
 static bool look_of(tc_look *look, const tc_transfer **tf, const char *name, const looks *l)
 {
-    static const char *const models[] = {"density-emitter", "emission", "absorption", "maximum",
-                                         "surfaces",        "xray",     "minimum",    "average"};
+    static const char *const models[] = {"density-emitter", "emission", "absorption", "maximum", "surfaces", "xray",
+                                         "minimum",         "average",  "depth"};
     memset(look, 0, sizeof *look);
     *tf = l->tf;
-    for (int i = 0; i < 8; i++)
+    for (int i = 0; i < 9; i++)
         if (strcmp(name, models[i]) == 0) {
             look->model = (tc_model)i;
             look->n_iso = look->model == TC_MODEL_SURFACES;

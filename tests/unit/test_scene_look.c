@@ -138,7 +138,7 @@ static void a_good_look_is_refused(void **state)
     passes(&s->look, s->mesh);
     s->look.n_iso = 0; /* the geometry is left */
     passes(&s->look, s->mesh);
-    for (int model = 0; model <= TC_MODEL_AVERAGE; model++) {
+    for (int model = 0; model <= TC_MODEL_DEPTH; model++) {
         tc_look look = {.model = (tc_model)model, .n_geometry = 1, .geometry = s->geometry};
         tc_shade_defaults(&look.shade); /* light, for the geometry alone */
         passes(&look, s->mesh);
@@ -163,8 +163,8 @@ static void a_good_look_is_refused(void **state)
 static void numbers_out_of_their_range_pass(void **state)
 {
     sample *s = *state;
-    REFUSED(s->look.model = (tc_model)8, "model 8", "0 to 7");
-    REFUSED(s->look.model = (tc_model)-1, "model -1", "0 to 7");
+    REFUSED(s->look.model = (tc_model)9, "model 9", "0 to 8");
+    REFUSED(s->look.model = (tc_model)-1, "model -1", "0 to 8");
     REFUSED(s->look.n_iso = -1, "-1 isosurfaces", "0 or more");
     REFUSED(s->look.iso = NULL, "2 isosurfaces", "NULL");
     REFUSED(s->look.n_iso = 65, "65 isosurfaces", "64");
@@ -229,6 +229,10 @@ static void what_excludes_each_other_passes(void **state)
     REFUSED(s->look.model = TC_MODEL_SURFACES; s->look.n_iso = 0; s->look.n_geometry = 0, "isosurfaces alone", "value");
     REFUSED(s->look.model = TC_MODEL_SURFACES; s->look.n_iso = 0;
             s->geometry[0].n_triangle = 0, "isosurfaces alone", "value");
+    REFUSED(s->look.model = TC_MODEL_DEPTH, "depth", "gradient");
+    REFUSED(s->look.model = TC_MODEL_DEPTH; s->look.shade.gradient = TC_GRADIENT_NONE, "depth", "second field");
+    REFUSED(s->look.model = TC_MODEL_DEPTH; s->look.depth_opacity = -0.1, "opacity -0.1", "0 to 1");
+    REFUSED(s->look.model = TC_MODEL_DEPTH; s->look.depth_opacity = NAN, "opacity", "0 to 1");
     REFUSED(s->look.color_function = NULL, "no function", "both or neither");
     REFUSED(s->look.color_field = NULL, "no field", "both or neither");
     REFUSED(s->look.color_field = s->foreign, "'alien'", "colour");

@@ -32,7 +32,7 @@ void layer_take(int node)
 
 //@section part_done
                 if (parts.end == PART_LAYER) {
-                    gathered_surface(integral.sum, layer_color.rgb, layer_color.a);
+                    gathered_surface(integral.sum, layer_color.rgb, layer_color.a); //@then layer_added
                     layer_take(layer_behind);
                 }
 
@@ -55,8 +55,8 @@ vec4 layers_behind(vec4 color, ivec2 pixel)
     int node = kept > 0 ? kept - 1 : int(texelFetch(layer_heads, pixel, 0).x);
     while (node != 0) {
         vec4 layer = intBitsToFloat(texelFetch(layer_nodes, 2 * node));
-        float left = (1.0 - color.a) * layer.a;
-        color += left * vec4(layer.rgb, 1.0);
+        float left = (1.0 - color.a) * layer.a; //@or layer_behind
+        color += left * vec4(layer.rgb, 1.0); //@or layer_behind
         node = texelFetch(layer_nodes, 2 * node + 1).y;
     }
     return color;

@@ -41,6 +41,6 @@ int iso_next()
                 if (parts.end == PART_ISO) {
                     int surface = iso_next();
                     vec4 iso = iso_color[surface]; //@then iso_color
-                    gathered_surface(integral.sum, iso.rgb, iso.a);
+                    gathered_surface(integral.sum, iso.rgb, iso.a); //@then iso_added
                     iso_at += iso_at < iso_to ? 1 : -1;
                 }

@@ -177,6 +177,7 @@ static json_t *tc_look_effects(const tc_look *look)
         [TC_MODEL_MINIMUM] = "minimum",
         [TC_MODEL_AVERAGE] = "average",
         [TC_MODEL_SURFACES] = "surfaces",
+        [TC_MODEL_DEPTH] = "depth",
     };
     static const tc_look plain = {0};
     look = look ? look : &plain;
