@@ -133,15 +133,12 @@ static tc_sniffed sniff(const std::string &path, bool surface)
     return sniffed;
 }
 
-static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sniffed, const ReadRequest &request,
-                     bool in_series, VtkTalk &talk)
+static std::unique_ptr<Reader> make_reader(const std::string &path, const tc_sniffed &sniffed)
 {
-    std::unique_ptr<Reader> reader;
     switch (sniffed.format) {
     case TC_FORMAT_VTK_XML:
     case TC_FORMAT_VTK_LEGACY:
-        reader = make_vtk_reader(path, sniffed);
-        break;
+        return make_vtk_reader(path, sniffed);
     case TC_FORMAT_VTKHDF:
     case TC_FORMAT_EXODUS:
     case TC_FORMAT_ENSIGHT:
@@ -151,12 +148,16 @@ static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sni
     case TC_FORMAT_STL:
     case TC_FORMAT_OBJ:
     case TC_FORMAT_PLY:
-        reader = make_more_reader(path, sniffed);
-        break;
+        return make_more_reader(path, sniffed);
     default:
         throw Refusal(path + " is a list of files inside a list of files, which is not read; give the inner one");
     }
-    reader->open(talk);
+}
+
+// One step of the reader's file, which is open.
+static void load_step_of(Loaded &out, Reader *reader, const ReadRequest &request, bool in_series, VtkTalk &talk)
+{
+    const std::string &path = reader->path;
     const std::vector<Offered> offered = reader->arrays();
     const bool of_blocks = !request.field.any && may_be_wanted(request.field, block_array, TC_CELL_DATA); // we make it
     if (!offered.empty() && !request.surface && !of_blocks)
@@ -185,12 +186,41 @@ static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sni
     out.reader = reader->algorithm->GetClassName();
 }
 
-Loaded load_file(const ReadRequest &request, VtkTalk &talk)
+static void load_one(Loaded &out, const std::string &path, const tc_sniffed &sniffed, const ReadRequest &request,
+                     bool in_series, VtkTalk &talk)
+{
+    std::unique_ptr<Reader> reader = make_reader(path, sniffed);
+    reader->open(talk);
+    load_step_of(out, reader.get(), request, in_series, talk);
+}
+
+// The same with a file that stays open.
+static void load_on(Loaded &out, OpenFile *open, const tc_sniffed &sniffed, const ReadRequest &request, VtkTalk &talk)
+{
+    std::unique_ptr<Reader> reader;
+    if (open->path == request.path)
+        reader = std::move(open->reader);
+    open->reader.reset();
+    if (reader) {
+        talk.watch(reader->algorithm);
+    } else {
+        reader = make_reader(request.path, sniffed);
+        reader->open(talk);
+    }
+    load_step_of(out, reader.get(), request, false, talk);
+    open->path = request.path;
+    open->reader = std::move(reader);
+}
+
+Loaded load_file(const ReadRequest &request, OpenFile *open, VtkTalk &talk)
 {
     Loaded out;
     const tc_sniffed sniffed = sniff(request.path, request.surface);
     if (sniffed.format != TC_FORMAT_PVD && sniffed.format != TC_FORMAT_SERIES) {
-        load_one(out, request.path, sniffed, request, false, talk);
+        if (open)
+            load_on(out, open, sniffed, request, talk);
+        else
+            load_one(out, request.path, sniffed, request, false, talk);
         return out;
     }
     const Series series = sniffed.format == TC_FORMAT_PVD ? read_pvd(request.path, talk) : read_series(request.path);

@@ -75,8 +75,15 @@ struct Loaded {
     std::vector<std::string> notes;
 };
 
-// Throws Refusal.
-Loaded load_file(const ReadRequest &request, VtkTalk &talk);
+// A file that stays open for its next step.
+struct OpenFile {
+    std::string path;
+    std::unique_ptr<Reader> reader; // NULL: there is none
+};
+
+// open: NULL, or a file that goes on to be read where it is the same, and else is replaced; lists over time open each of
+// their files anew. Throws Refusal; then open holds none.
+Loaded load_file(const ReadRequest &request, OpenFile *open, VtkTalk &talk);
 
 // The step that is wanted: by number (negative from the end), by time (nearest at or before), else the first.
 // Throws a Refusal for a step that is not there.

@@ -1,14 +1,11 @@
 // tetcast_read.cpp: the helper program: reads one time step of a file with VTK, splits every cell into tets and hands
-// arrays back, or the triangles and lines alone (protocol: src/core/serve.h; requests and results: readers/read.c,
-// readers/read_geometry.c).
+// arrays back, or only what they will be like, or the triangles and lines alone (protocol: src/core/serve.h; requests and
+// results: readers/read.c, readers/survey.c, readers/read_geometry.c).
 #include "cell_types.h"
 #include "core/serve.h"
-#include "fields.h"
-#include "gather.h"
-#include "kept.h"
-#include "load.h"
+#include "step.h"
 #include "surface.h"
-#include "vtk_talk.h"
+#include "survey.h"
 
 #include <cinttypes>
 #include <cmath>
@@ -20,30 +17,6 @@ namespace tetcast
 
 namespace
 {
-
-ReadRequest parse_request(json_t *request)
-{
-    ReadRequest out;
-    const char *path = json_string_value(json_object_get(request, "path"));
-    const char *field = json_string_value(json_object_get(request, "field"));
-    out.path = path ? path : "";
-    out.field.any = !field;
-    out.field.text = field ? field : "";
-    out.field.association = (tc_association)json_integer_value(json_object_get(request, "association"));
-    json_t *time = json_object_get(request, "time"), *step = json_object_get(request, "step");
-    out.has_time = time != nullptr;
-    out.time = json_number_value(time);
-    out.has_step = step != nullptr;
-    out.step = (int)json_integer_value(step);
-    out.refine = (int)json_integer_value(json_object_get(request, "refine"));
-    out.all_ranges = json_is_true(json_object_get(request, "all_ranges"));
-    out.keep = json_is_true(json_object_get(request, "keep"));
-    const char *mesh = json_string_value(json_object_get(request, "mesh"));
-    out.mesh = mesh ? mesh : "";
-    if (out.path.empty())
-        throw Refusal("no file was named");
-    return out;
-}
 
 json_t *text(const std::string &s)
 {
@@ -105,67 +78,6 @@ json_t *describe_texts(const std::vector<std::string> &lines)
     return list;
 }
 
-std::string counted(size_t n, const char *one, const char *many)
-{
-    return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
-void require_solid(const std::string &path, const Gathered &data)
-{
-    if (data.n_solid > 0)
-        return;
-    std::string kinds;
-    for (const auto &entry : data.by_type)
-        kinds += (kinds.empty() ? "" : ", ") + std::to_string(entry.second) + " " + cell_type(entry.first).name;
-    throw Refusal(path + " has no 3-D cells to render; it holds " +
-                  (kinds.empty() ? "no cells at all (is it cut short?)" : kinds));
-}
-
-void note_split(std::vector<std::string> &notes, const Gathered &data, const Tets &tets, int refine)
-{
-    if (data.n_ghost)
-        notes.push_back(counted(data.n_ghost, "ghost or blanked cell was", "ghost or blanked cells were") +
-                        " left out");
-    if (data.n_curved && refine == 0)
-        notes.push_back(counted(data.n_curved, "cell of higher order was", "cells of higher order were") +
-                        " made linear by their corners (--refine N keeps more of the curve)");
-    if (tets.folded_cells)
-        notes.push_back(counted(tets.folded_cells, "cell is", "cells are") + " folded over; the tets overlap there");
-    if (tets.centred_cells)
-        notes.push_back(counted(tets.centred_cells, "cell got a point", "cells got points") +
-                        " inside, with interpolated data");
-    if (tets.open_cells)
-        notes.push_back(counted(tets.open_cells, "polyhedron is", "polyhedra are") + " not closed and left out");
-    if (tets.refused_cells)
-        notes.push_back(counted(tets.refused_cells, "polyhedron", "polyhedra") + " could not be filled and left out");
-}
-
-// The tets of data: those of the last request where its points and cells were the same.
-const SplitFile &split_file(Kept &kept, SplitFile &fresh, const ReadRequest &request, const Gathered &data,
-                            VtkTalk &talk)
-{
-    uint64_t input = 0;
-    const bool hashed = request.keep && hash_input(input, data);
-    if (hashed && kept.there && kept.input == input && kept.refine == request.refine)
-        return kept.split;
-    kept = Kept();
-    fresh.refined = split_mesh(fresh.tets, data, request.refine, fresh.notes, talk);
-    note_split(fresh.notes, data, fresh.tets, fresh.refined);
-    if (fresh.tets.tet.empty())
-        throw Refusal(request.path + ": none of its " + std::to_string(data.n_solid) +
-                      " 3-D cells has a volume: they are collapsed, or polyhedra that are not closed");
-    fresh.used = compact_points(fresh.tets);
-    fresh.lost = count_lost_points(fresh.tets, data, fresh.used);
-    hash_split(fresh, fresh.vertices(), data.n_solid);
-    if (!hashed)
-        return fresh;
-    kept.there = true;
-    kept.input = input;
-    kept.refine = request.refine;
-    kept.split = std::move(fresh);
-    return kept.split;
-}
-
 std::string hex(uint64_t hash)
 {
     char text[17];
@@ -178,20 +90,17 @@ void read(tc_serve *serve, Kept &kept, json_t *json)
     const ReadRequest request = parse_request(json);
     VtkTalk talk(serve);
     talk.progress("reading", -1);
-    Loaded loaded = load_file(request, talk);
-    Gathered data;
-    gather_leaves(data, loaded.data);
-    count_cells(data, request.path);
-    require_solid(request.path, data);
-    list_read_arrays(loaded.offered, data);
-    list_block_numbers(loaded.offered, loaded.blocks, data);
-    const Chosen chosen = choose_field(request.path, request.field, loaded.offered);
+    Step step;
+    load_step(step, request, nullptr, talk);
+    Loaded &loaded = step.loaded;
+    const Gathered &data = step.data;
+    const Chosen &chosen = step.chosen;
     find_ranges(loaded.offered, data, [&](const Offered &o) {
         return request.all_ranges || (o.name == chosen.name && o.association == chosen.association);
     });
 
     SplitFile fresh;
-    const SplitFile &split = split_file(kept, fresh, request, data, talk);
+    const SplitFile &split = split_step(kept, fresh, request, data, talk);
     const Tets &tets = split.tets;
     const std::vector<int32_t> &used = split.used;
     loaded.notes.insert(loaded.notes.end(), split.notes.begin(), split.notes.end());
@@ -259,7 +168,7 @@ void read_surface(tc_serve *serve, json_t *json)
     request.field.any = false; // no array is called ""
     VtkTalk talk(serve);
     talk.progress("reading", -1);
-    Loaded loaded = load_file(request, talk);
+    Loaded loaded = load_file(request, nullptr, talk);
     Gathered data;
     gather_leaves(data, loaded.data);
     for (const Leaf &leaf : data.leaf)
@@ -276,18 +185,27 @@ void read_surface(tc_serve *serve, json_t *json)
     tc_serve_result(serve, result.get(), array, 3);
 }
 
+// What is kept from one request to the next.
+struct State {
+    Kept kept;
+    Surveyed surveyed;
+};
+
 void handle(void *context, tc_serve *serve, json_t *request, const tc_array *, size_t)
 {
     const char *what = json_string_value(json_object_get(request, "do"));
     const char *path = json_string_value(json_object_get(request, "path"));
     const std::string name = path ? path : "the file";
+    State *state = static_cast<State *>(context);
     try {
         if (what && std::string(what) == "read")
-            read(serve, *static_cast<Kept *>(context), request);
+            read(serve, state->kept, request);
+        else if (what && std::string(what) == "survey")
+            survey(serve, state->surveyed, state->kept, request);
         else if (what && std::string(what) == "surface")
             read_surface(serve, request);
         else
-            tc_serve_error(serve, "tetcast-read only knows the requests \"read\" and \"surface\"");
+            tc_serve_error(serve, "tetcast-read only knows the requests \"read\", \"survey\" and \"surface\"");
     } catch (const Refusal &refusal) {
         tc_serve_error(serve, refusal.what());
     } catch (const std::bad_alloc &) {
@@ -304,6 +222,6 @@ void handle(void *context, tc_serve *serve, json_t *request, const tc_array *, s
 
 int main(int argc, char **argv)
 {
-    tetcast::Kept kept;
-    return tc_serve_main(argc, argv, "tetcast-read", tetcast::handle, &kept);
+    tetcast::State state;
+    return tc_serve_main(argc, argv, "tetcast-read", tetcast::handle, &state);
 }

@@ -92,6 +92,7 @@ void VtkTalk::watch(vtkAlgorithm *algorithm)
     vtkNew<vtkCallbackCommand> command;
     command->SetCallback(on_progress);
     command->SetClientData(this);
+    algorithm->RemoveObservers(vtkCommand::ProgressEvent); // of an earlier request
     algorithm->AddObserver(vtkCommand::ProgressEvent, command);
 }
 

@@ -229,11 +229,13 @@ TC_API tc_status tc_mesh_ahead_begin(tc_mesh_ahead **out, tc_mesh *mesh, const c
 TC_API tc_status tc_mesh_ahead_end(tc_mesh **moved, tc_mesh *mesh, tc_mesh_ahead **ahead, const tc_log *log,
                                    tc_error *err);
 
-/* What a step's mesh will be like, found without splitting cells and without making a mesh. */
+/* What a step's mesh will be like, found without making a mesh, and without splitting cells unless some may lose corners or
+ * get points by it (polyhedra, folded and collapsed cells, curved ones that are refined). As the report of the prepared mesh,
+ * to the bit, but that cells which are there twice with different cell data count with both. */
 typedef struct tc_survey {
     tc_status status;    /* TC_OK, or why the step could not be read; the rest is then zeros */
     char why[256];       /* that in a sentence */
-    double range[2];     /* of finite values, as tc_mesh_report.scalar_range; lo > hi: none is finite */
+    double range[2];     /* of finite values, as tc_mesh_report.scalar_range; lo > hi: none is finite; 0, 0: no field */
     double bounds[6];    /* as tc_mesh_report.bounds */
     size_t source_cells; /* as tc_mesh_report.source_cells */
     double time;         /* of the step; NAN: the file has no times */
@@ -241,7 +243,8 @@ typedef struct tc_survey {
 
 /* Surveys steps of a file in one go: out [n_step] of step [n_step]; step NULL: n_step is 1, the step of options. A step that
  * cannot be read is no error: its status tells.
- * Errors: TC_E_FILE (nothing of the file can be read), TC_E_WORKER, TC_E_ARG. Cost: reading each step's points and values. */
+ * Errors: TC_E_FILE, TC_E_WORKER (no step of the file can be read: as the first of them), TC_E_ARG. Cost: reading each step's
+ * points and values, in a tetcast-read that is started for it and keeps the file open. */
 TC_API tc_status tc_mesh_survey(tc_survey *out, const int *step, size_t n_step, const char *path,
                                 const tc_read_options *options, const tc_log *log, tc_error *err);
 
