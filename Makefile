@@ -31,7 +31,8 @@ FUZZ_TARGETS ?= preset options mesh sniff wire reply split
 BUILD := build
 
 BASE_PACKAGES := gcc g++ libc6-dev cmake ninja-build pkg-config libvtk9-dev libtet1.5-dev libosmesa6-dev libegl-dev \
-	libgl-dev libegl1 libgl1-mesa-dri libopenimageio-dev libpng-dev libglm-dev libjansson-dev libcmocka-dev libexpat1-dev
+	libgl-dev libegl1 libgl1-mesa-dri libopenimageio-dev libpng-dev libglm-dev libjansson-dev libcmocka-dev libexpat1-dev \
+	python3 python3-numpy
 BENCH_PACKAGES := python3 python3-vtk9 python3-numpy xvfb xauth
 VALGRIND_PACKAGES := valgrind
 FUZZ_PACKAGES := clang-14 libclang-rt-14-dev

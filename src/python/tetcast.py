@@ -104,7 +104,7 @@ class Mesh:
                                     "remove them and the cells that use them")
         cells = _cells(cells, len(points))
         self._shape, self._path = (len(points), len(cells)), None
-        values, kind = None, 1
+        values, kind = None, _choice("association", association, _ASSOCIATIONS) or 1
         if scalars is not None:
             values, kind = self._values(scalars, association)
         arrays = c.tc_mesh_arrays(
