@@ -44,7 +44,7 @@ typedef struct tc_image_encoding {
     int bits;    /* a channel; PNG: 8 (default) or 16; EXR: 32 (default) or 16 (half); TIFF: 32; JPEG: 8 */
     int quality; /* JPEG: 1 to 100; 0: 95 */
     int level;   /* PNG: zlib's, 1 (large) to 9 (slow); 0: 4; -1: not compressed */
-    const float *depth; /* [height][width], borrowed: channel Z of EXR, 32 bits; refused of other formats; NULL: none */
+    const float *depth; /* [height][width], borrowed: channel Z of EXR, 32 bits, any values; refused of other formats; NULL: none */
 } tc_image_encoding;
 
 /* tc_image_write through it; a helper that died is started anew. encoding may be NULL.
@@ -56,8 +56,9 @@ TC_API void tc_image_writer_destroy(tc_image_writer **writer);
 
 /* A picture that is written row by row, from the top, while it is made: rows are held only until they are encoded. The file
  * appears whole when it is closed, or not at all. Up to 32768 x 32768 pixels, of every format and encoding but depth.
- * opaque: every pixel will be (of PNG then without alpha); a pixel that is not is laid over black. Texts and path are copied.
- * Errors: as tc_image_writer_save; TC_E_FILE tells of a disk that is full. */
+ * A pipe, a device or "-" gets PNG at once, which cannot be taken back, and other formats at the end. opaque: every pixel will
+ * be (of PNG then without alpha); a pixel that is not is laid over black. Texts, path and *log are copied. Formats other than
+ * PNG take a helper program of the stream's own. Errors: as tc_image_writer_save; TC_E_FILE tells of a disk that is full. */
 typedef struct tc_image_stream tc_image_stream;
 TC_API tc_status tc_image_stream_open(tc_image_stream **out, const char *path, int width, int height, bool opaque,
                                       const tc_image_encoding *encoding, const tc_text_pair *meta, size_t n,
@@ -67,8 +68,9 @@ TC_API tc_status tc_image_stream_rows(tc_image_stream *stream, const float *rgba
 /* keep: all rows are there and the file is to be; else, or on an error, nothing of it stays. *stream is freed. */
 TC_API tc_status tc_image_stream_close(tc_image_stream **stream, bool keep, tc_error *err);
 
-/* Is a picture's file whole and undamaged? *text gets the text under key, as of tc_image_read_text. writer NULL: helpers start
- * anew. Errors: TC_E_FILE (not there, cut short, damaged: says which), TC_E_WORKER, TC_E_MEMORY. Cost: PNG: reads the file and
+/* Is a picture's file whole and undamaged, and of the format that its name says? *text (NULL allowed) gets the text under key,
+ * as of tc_image_read_text. writer NULL: helpers start anew. Errors: TC_E_FILE (not there, empty, of another kind, cut short,
+ * damaged: says which), TC_E_WORKER, TC_E_MEMORY. Cost: PNG: reads the file and
  * its checksums; other formats are decoded. */
 TC_API tc_status tc_image_check(char **text, const char *path, const char *key, tc_image_writer *writer, tc_error *err);
 

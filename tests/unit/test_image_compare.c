@@ -1,4 +1,5 @@
 /* test_image_compare.c: images in memory: limits, background, comparison. */
+#define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -22,14 +23,19 @@ static tc_image *blank(int width, int height)
 static void impossible_sizes_are_made(void **state)
 {
     (void)state;
-    static const int sizes[][2] = {{0, 1}, {1, 0}, {-1, 5}, {INT_MAX, INT_MAX}, {1 << 15, 1 << 15}};
+    static const int sizes[][2] = {{0, 1}, {1, 0}, {-1, 5}, {INT_MAX, INT_MAX}, {1 << 15, (1 << 15) + 1}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         tc_image *image = (tc_image *)&sizes;
         tc_error err;
         assert_int_equal(tc_image_create(&image, sizes[i][0], sizes[i][1], &err), TC_E_ARG);
         assert_null(image);
     }
-    tc_image *none = NULL;
+    tc_image *none = NULL; /* 16 GiB are asked for before they are taken */
+    tc_error err;
+    setenv("TETCAST_MEMORY", "8G", 1);
+    assert_int_equal(tc_image_create(&none, 1 << 15, 1 << 15, &err), TC_E_MEMORY);
+    unsetenv("TETCAST_MEMORY");
+    assert_non_null(strstr(err.text, "needs 16.0 GiB of memory, and 8.0 GiB are free"));
     tc_image_destroy(&none);
     tc_image_destroy(NULL);
 }
