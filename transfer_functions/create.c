@@ -73,17 +73,30 @@ static tc_preset *copy_preset(const tc_preset *from)
     return copy;
 }
 
-static tc_status load_preset(tc_preset **out, const char *path, const char *name, tc_error *err)
+/* Is it the text of a preset, not a name? */
+static bool is_preset_text(const char *text)
 {
-    tc_preset_list list;
-    tc_status status = tc_preset_read(&list, path, err);
-    if (status != TC_OK)
-        return status;
+    return *text == '{' || *text == '[';
+}
+
+/* Of a file, or of the text of one, which is the caller's argument. */
+static tc_status load_preset(tc_preset **out, const char *from, const char *name, tc_error *err)
+{
+    tc_preset_list list = {0};
+    const bool text = is_preset_text(from);
+    const char *path = text ? "the colour map's text" : from;
+    tc_status status = text ? tc_preset_parse(&list, from, strlen(from), path, err) : tc_preset_read(&list, path, err);
     const tc_preset *chosen;
-    status = tc_preset_choose(&chosen, &list, name, path, err);
+    if (status == TC_OK)
+        status = tc_preset_choose(&chosen, &list, name, path, err);
     if (status == TC_OK && !(*out = copy_preset(chosen)))
         status = tc_fail_memory(err, path, chosen->n_color, sizeof *chosen->color);
     tc_preset_list_finish(&list);
+    if (text && status == TC_E_FILE) {
+        status = TC_E_ARG;
+        if (err)
+            err->code = status;
+    }
     return status;
 }
 
@@ -102,7 +115,7 @@ static tc_status load_color_map(tc_preset **out, const tc_transfer_options *opti
             *out = tc_builtin_preset(i);
             return *out ? TC_OK : tc_fail_memory(err, "a built-in colour map", 1, sizeof **out);
         }
-    if (looks_like_file(name))
+    if (is_preset_text(name) || looks_like_file(name))
         return load_preset(out, name, options->preset, err);
     char nearest[300];
     tc_preset_nearest(nearest, sizeof nearest, builtin, n, name);

@@ -2,6 +2,7 @@
 #include "cli/picture/render_options.h"
 #include "cli/commands.h"
 #include "cli/json_out.h"
+#include "cli/scene/paraview.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -168,7 +169,7 @@ static bool tc_table_size_parse(void *field, const char *text, char *why)
 }
 
 /* clang-format off */
-const tc_option tc_render_option[] = {
+const tc_option tc_render_option[TC_N_RENDER_OPTION] = {
     {.help = "Data"},
     TC_INPUT_ARRAY_ROWS(tc_render_command, source),
     {"--time", 0, "T", "the step at or before this time; a number that ends in ms is --frame-time", TC_OPTION_CUSTOM, .at = 0, .parse = tc_time_parse},
@@ -176,6 +177,7 @@ const tc_option tc_render_option[] = {
     TC_INPUT_READER_ROWS(tc_render_command, source),
     TC_INPUT_GAP_ROW(tc_render_command, source),
     TC_INPUT_CACHE_ROWS(tc_render_command, source),
+    {"--paraview", 0, "FILE", "camera, field, transfer function, size and background from a ParaView state (.pvsm), or a camera file (.pvcc); other options stand before it", TC_OPTION_TEXT, AT(paraview)},
     {.help = "Picture"},
     {"--output", 'o', "FILE", "png, exr, tif or jpg by extension; - for PNG on stdout; default INPUT's name + .png, here; several steps: {step:04d} or {time:.3f} in it, else _0012 before the extension", TC_OPTION_TEXT, AT(output)},
     {"--size", 0, "WxH", "pixels; default 512x512", TC_OPTION_CUSTOM, AT(size), .parse = tc_size_parse},
@@ -194,7 +196,7 @@ const tc_option tc_render_option[] = {
     {"--zoom", 0, "F", "then divide the view angle or scale; default 1", TC_OPTION_REAL, AT(zoom), .low = 0, .high = 1e300, .open = true},
     {"--clipping-range", 0, "NEAR,FAR", "show only what lies between these distances from the eye, along the view", TC_OPTION_REALS, AT(clipping_range), HAS(has_clipping_range), .n = 2},
     {.help = "Transfer function"},
-    {"--color-map", 0, "NAME|FILE", "a built-in map, or a ParaView preset (.json, .xml); default Cool to Warm", TC_OPTION_TEXT, AT(color_map)},
+    {"--color-map", 0, "NAME|FILE", "a built-in map, a ParaView preset (.json, .xml), or the text of one; default Cool to Warm", TC_OPTION_TEXT, AT(color_map)},
     {"--preset", 0, "NAME", "which map of a file that holds several; default the first", TC_OPTION_TEXT, AT(preset)},
     {"--opacity", 0, "FILE|S:A,…|linear|geom|sigmoid", "attenuation per unit distance; default the preset's own, else linear from 0 to 0.3", TC_OPTION_TEXT, AT(opacity)},
     {"--range", 0, "LO,HI", "scalars that the map spans; default the field's range", TC_OPTION_REALS, AT(range), HAS(has_range), .n = 2},
@@ -232,7 +234,7 @@ const tc_option tc_render_option[] = {
     {"--shell", .kind = TC_OPTION_LATER},
 };
 /* clang-format on */
-const size_t tc_n_render_option = sizeof tc_render_option / sizeof *tc_render_option;
+_Static_assert(sizeof tc_render_option == TC_N_RENDER_OPTION * sizeof *tc_render_option, "rows of the table");
 
 const tc_command tc_command_render = {
     .name = "render",
@@ -243,7 +245,7 @@ const tc_command tc_command_render = {
              "these options; or a picture that tetcast render wrote, to make it again. Options given here come first; "
              "--FLAG=off turns one off that a scene has on.",
     .option = tc_render_option,
-    .n_option = sizeof tc_render_option / sizeof *tc_render_option,
+    .n_option = TC_N_RENDER_OPTION,
     .also = tc_look_option,
     .n_also = TC_N_LOOK_OPTION,
     .also_at = offsetof(tc_render_command, look),
@@ -507,30 +509,76 @@ static bool tc_is_overridden(const tc_render_command *line, const tc_scene *scen
     return false;
 }
 
-/* INPUT is a scene: its options, then those of the command line over them. */
-static int tc_scene_take(tc_render_command *out, const tc_scene_at *at, tc_talk *talk, const tc_command *command,
-                         int argc, char **argv)
+/* Sets a scene's options but those that lie under others: of the command line, or of a scene over this one. */
+static int tc_scene_set(tc_render_command *out, const tc_scene *scene, const tc_render_command *over, tc_talk *talk,
+                        const tc_command *command)
 {
-    tc_render_command line = *out;
-    int n_argument, code;
-    tc_render_command_defaults(out);
-    code = at ? tc_scene_from_json(&out->scene, at->json, at->element, at->text, line.input, at->folder, command, talk)
-              : tc_scene_read(&out->scene, line.input, command, talk);
-    for (size_t i = 0; i < out->scene.n && code < 0; i++) {
-        const tc_scene_item *item = &out->scene.item[i];
-        if (!tc_is_overridden(&line, &out->scene, item->option->name))
+    int code = -1;
+    for (size_t i = 0; i < scene->n && code < 0; i++) {
+        const tc_scene_item *item = &scene->item[i];
+        if (!tc_is_overridden(over, scene, item->option->name))
             code = tc_option_set(out, talk, command, item->option, item->called, item->text);
         if (code >= 0)
             code = TC_EXIT_FAILED; /* it is the file that is wrong */
     }
+    return code;
+}
+
+/* A ParaView state under out's scene, which has been set: out begins anew with the state's options, then the scene's. */
+static int tc_state_under(tc_render_command *out, const char *path, const tc_render_command *line, bool silent,
+                          tc_talk *talk, const tc_command *command, int argc, char **argv)
+{
+    const char *argument;
+    int n_argument, code = tc_options_parse(out, &argument, &n_argument, talk, command, argc, argv);
+    tc_render_command over = *out;
+    tc_render_command_defaults(out);
+    out->scene = over.scene;
+    if (code < 0)
+        code = tc_paraview_options(&out->state, path, !out->scene.data, silent, command, talk);
+    if (code < 0)
+        code = tc_scene_set(out, &out->state, &over, talk, command);
+    if (code < 0)
+        code = tc_scene_set(out, &out->scene, line, talk, command);
+    tc_given_finish(&over.given);
+    return code;
+}
+
+/* INPUT is a scene or a ParaView state, or --paraview gives a state: its options, then those of the command line over them.
+ * Under a scene lies the state that it or the command line names, under a state that is --paraview's one that is INPUT. */
+static int tc_scene_take(tc_render_command *out, const tc_scene_at *at, tc_talk *talk, const tc_command *command,
+                         int argc, char **argv)
+{
+    tc_render_command line = *out;
+    const bool is_scene = at || tc_input_is_scene(line.input);
+    const bool is_state = !is_scene && tc_input_is_paraview(line.input);
+    const bool silent = at && at->element > 0; /* it was said with the first */
+    int n_argument, code;
+    tc_render_command_defaults(out);
+    if (!is_scene)
+        code = tc_paraview_options(&out->scene, line.paraview ? line.paraview : line.input, !line.paraview, silent,
+                                   command, talk);
+    else if (at)
+        code = tc_scene_from_json(&out->scene, at->json, at->element, at->text, line.input, at->folder, command, talk);
+    else
+        code = tc_scene_read(&out->scene, line.input, command, talk);
+    if (code < 0)
+        code = tc_scene_set(out, &out->scene, &line, talk, command);
+    const char *state = is_scene ? (line.paraview ? line.paraview : out->paraview)
+                        : is_state && line.paraview ? line.input
+                                                    : NULL;
+    if (code < 0 && state)
+        code = tc_state_under(out, state, &line, silent, talk, command, argc, argv);
     tc_given_finish(&line.given);
-    if (code < 0 && !out->scene.data) {
+    const char *data = out->scene.data ? out->scene.data : out->state.data;
+    if (code < 0 && !data && is_scene) {
         tc_talk_error(talk, "%s names no data: add \"data\": \"FILE\"", line.input);
         code = TC_EXIT_FAILED;
     }
     if (code < 0)
-        code = tc_options_parse(out, &out->scene_path, &n_argument, talk, command, argc, argv);
-    out->input = out->scene.data;
+        code = tc_options_parse(out, is_scene || is_state ? &out->scene_path : &out->input, &n_argument, talk, command,
+                                argc, argv);
+    if (is_scene || is_state)
+        out->input = data;
     return code;
 }
 
@@ -573,7 +621,7 @@ int tc_picture_command_take(tc_render_command *out, const tc_scene_at *at, tc_ta
     talk->from = NULL;
     tc_render_command_defaults(out);
     int code = tc_options_parse(out, &out->input, &n_argument, talk, command, argc, argv);
-    if (code < 0 && tc_input_is_scene(out->input))
+    if (code < 0 && (at || out->paraview || tc_input_is_scene(out->input) || tc_input_is_paraview(out->input)))
         code = tc_scene_take(out, at, talk, command, argc, argv);
     if (code >= 0)
         return code;
@@ -610,4 +658,5 @@ void tc_render_command_finish(tc_render_command *command)
 {
     tc_given_finish(&command->given);
     tc_scene_finish(&command->scene);
+    tc_scene_finish(&command->state);
 }

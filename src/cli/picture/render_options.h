@@ -26,6 +26,8 @@ typedef struct tc_render_command {
     const char *input, *output;
     const char *scene_path; /* the scene file or picture that was given for INPUT; NULL: a mesh was */
     tc_scene scene;         /* from it; texts below point into it */
+    const char *paraview;   /* a ParaView state or camera file; NULL: none */
+    tc_scene state;         /* from one that lies under the scene; texts below point into it, too */
     tc_given_list given;    /* by the scene and, over it, by the command line */
     char default_output[512];
     tc_input_options source;
@@ -79,8 +81,8 @@ bool tc_choice_asked(const tc_render_command *options);
 
 /* The options of everything that makes a picture: with tc_look_option behind them they are those of a command whose struct
  * is a tc_render_command, as tc_command_render is. */
-extern const tc_option tc_render_option[];
-extern const size_t tc_n_render_option;
+enum { TC_N_RENDER_OPTION = 70 };
+extern const tc_option tc_render_option[TC_N_RENDER_OPTION];
 
 /* Defaults, parsing, the scene file where INPUT is one, checks that need no mesh. -1 to go on, else the exit code. Whatever
  * it is, tc_render_command_finish frees what the struct holds. */

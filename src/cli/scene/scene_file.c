@@ -27,6 +27,7 @@ static const tc_scene_key tc_key[] = {
     {"", "seed", "--seed", TC_PATH_NONE, TC_KEY_PICTURE},
     {"", "idle_limit", "--idle-limit", TC_PATH_NONE, TC_KEY_RUN},
     {"", "cache", "--cache", TC_PATH_NONE, TC_KEY_RUN},
+    {"", "paraview", "--paraview", TC_PATH_FILE, TC_KEY_RUN},
     {"", "cache_file", "--cache-file", TC_PATH_FILE, TC_KEY_RUN},
     {"camera", "position", "--camera-position", TC_PATH_NONE, TC_KEY_PICTURE},
     {"camera", "focal_point", "--focal-point", TC_PATH_NONE, TC_KEY_PICTURE},
@@ -160,10 +161,11 @@ static const char *tc_section_name(char room[64], const tc_scene_reader *r, cons
 /* The place of a key as errors name it; the caller frees it. */
 static char *tc_called(const tc_scene_reader *r, const char *section, const char *key)
 {
-    char *text = NULL, room[64];
+    char *text = NULL, room[64], line[24] = "";
     section = tc_section_name(room, r, section);
-    int line = tc_json_line(r->text, section, key);
-    if (asprintf(&text, "%s:%d: %s%s%s", r->name, line, section, *section ? "." : "", key) < 0)
+    if (r->text)
+        snprintf(line, sizeof line, ":%d", tc_json_line(r->text, section, key));
+    if (asprintf(&text, "%s%s: %s%s%s", r->name, line, section, *section ? "." : "", key) < 0)
         return NULL;
     return text;
 }
@@ -190,7 +192,7 @@ static int tc_refuse_key(const tc_scene_reader *r, const char *section, const ch
     const char *elsewhere = NULL;
     char room[64];
     const char *shown = tc_section_name(room, r, section);
-    int line = tc_json_line(r->text, shown, key);
+    int line = r->text ? tc_json_line(r->text, shown, key) : 0;
     for (size_t i = 0; i < TC_N_KEY; i++) {
         const tc_scene_key *k = &tc_key[i];
         if (!strcmp(k->section, section)) {
@@ -258,6 +260,13 @@ static bool tc_put_list(FILE *stream, const json_t *array, const tc_option *opti
     return tc_put_array(stream, array, ';', ',');
 }
 
+/* Is it a colour map in full, as {"RGBPoints": …} or a list of such? */
+static bool tc_is_preset(const tc_option *option, const json_t *value)
+{
+    return !strcmp(option->name, "--color-map") &&
+           (json_is_object(value) || json_is_object(json_array_get(value, 0)));
+}
+
 /* May an option's value be of this JSON type? */
 static bool tc_type_fits(const tc_option *option, const json_t *value)
 {
@@ -266,7 +275,8 @@ static bool tc_type_fits(const tc_option *option, const json_t *value)
     case TC_OPTION_FLAG:
         return json_is_boolean(value);
     case TC_OPTION_TEXT:
-        return text || (list && (!strcmp(option->name, "--opacity") || !strcmp(option->name, "--categories")));
+        return text || (list && (!strcmp(option->name, "--opacity") || !strcmp(option->name, "--categories"))) ||
+               tc_is_preset(option, value);
     case TC_OPTION_CHOICE:
         return text || json_is_integer(value);
     case TC_OPTION_INT:
@@ -295,6 +305,7 @@ static const char *tc_type_wanted(const tc_option *option)
     case TC_OPTION_REALS:
         return "a list of numbers";
     case TC_OPTION_TEXT:
+        return strcmp(option->name, "--color-map") ? "a text" : "a text or a preset {\"RGBPoints\": …}";
     case TC_OPTION_CHOICE:
         return "a text";
     default:
@@ -398,7 +409,9 @@ static char *tc_value_text(const json_t *value, const tc_option *option)
     if (!stream)
         return NULL;
     bool good = true;
-    if (json_is_boolean(value))
+    if (tc_is_preset(option, value))
+        good = json_dumpf(value, stream, JSON_COMPACT | JSON_REAL_PRECISION(17)) == 0;
+    else if (json_is_boolean(value))
         fputs(json_is_true(value) ? "on" : "off", stream);
     else if (json_is_string(value))
         fputs(json_string_value(value), stream);
