@@ -66,12 +66,11 @@ static tc_status survey_step(tc_survey *out, tc_worker **worker, const char *pat
     return status;
 }
 
-tc_status tc_mesh_survey(tc_survey *out, const int *step, size_t n_step, const char *path,
-                         const tc_read_options *options, const tc_log *log, tc_error *err)
+/* One step of each path, or of the only one; step NULL: that of options. */
+static tc_status survey_all(tc_survey *out, const char *const *path, bool one_path, const int *step, size_t n,
+                            const tc_read_options *options, const tc_log *log, tc_error *err)
 {
     static const tc_read_options defaults = {0};
-    if (!out || !path || (!step && n_step != 1))
-        return tc_fail(err, TC_E_ARG, "tc_mesh_survey: out or path is NULL, or step with %zu steps", n_step);
     tc_read_options one = options ? *options : defaults;
     tc_status status = tc_read_check(&one, err);
     if (status)
@@ -79,16 +78,16 @@ tc_status tc_mesh_survey(tc_survey *out, const int *step, size_t n_step, const c
     tc_worker *worker = NULL;
     size_t failed = 0;
     tc_error first = {0};
-    for (size_t i = 0; i < n_step; i++) {
+    for (size_t i = 0; i < n; i++) {
         tc_error why = {0};
         if (step) {
             one.has_time = false;
             one.has_step = true;
             one.step = step[i];
         }
-        if (n_step > 1)
-            tc_progress(log, "surveying", (double)i / (double)n_step);
-        status = survey_step(&out[i], &worker, path, &one, log, &why);
+        if (n > 1)
+            tc_progress(log, "surveying", (double)i / (double)n);
+        status = survey_step(&out[i], &worker, path[one_path ? 0 : i], &one, log, &why);
         if (status) {
             note_failure(&out[i], status, why.text);
             if (failed++ == 0)
@@ -96,5 +95,21 @@ tc_status tc_mesh_survey(tc_survey *out, const int *step, size_t n_step, const c
         }
     }
     tc_worker_stop(&worker);
-    return n_step > 0 && failed == n_step ? tc_fail(err, first.code, "%s", first.text) : TC_OK;
+    return n > 0 && failed == n ? tc_fail(err, first.code, "%s", first.text) : TC_OK;
+}
+
+tc_status tc_mesh_survey(tc_survey *out, const int *step, size_t n_step, const char *path,
+                         const tc_read_options *options, const tc_log *log, tc_error *err)
+{
+    if (!out || !path || (!step && n_step != 1))
+        return tc_fail(err, TC_E_ARG, "tc_mesh_survey: out or path is NULL, or step with %zu steps", n_step);
+    return survey_all(out, &path, true, step, n_step, options, log, err);
+}
+
+tc_status tc_mesh_survey_files(tc_survey *out, const char *const *path, size_t n, const tc_read_options *options,
+                               const tc_log *log, tc_error *err)
+{
+    if (!out || !path)
+        return tc_fail(err, TC_E_ARG, "tc_mesh_survey_files: out or path is NULL");
+    return survey_all(out, path, false, NULL, n, options, log, err);
 }

@@ -247,6 +247,9 @@ typedef struct tc_survey {
  * points and values, in a tetcast-read that is started for it and keeps the file open. */
 TC_API tc_status tc_mesh_survey(tc_survey *out, const int *step, size_t n_step, const char *path,
                                 const tc_read_options *options, const tc_log *log, tc_error *err);
+/* The same of the steps of a series of files: out [n] of path [n], of each the step of options. */
+TC_API tc_status tc_mesh_survey_files(tc_survey *out, const char *const *path, size_t n, const tc_read_options *options,
+                                      const tc_log *log, tc_error *err);
 
 /* NULL for a mesh made from arrays. */
 TC_API const tc_source *tc_mesh_source(const tc_mesh *mesh);
