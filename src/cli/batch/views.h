@@ -67,7 +67,7 @@ typedef struct tc_view_keys {
     bool parallel;
 } tc_view_keys;
 
-/* Written by views_read.c alone. */
+/* Written by views_read.c and view_keys.c alone. */
 typedef struct tc_views {
     tc_views_kind kind;
     char *called; /* how errors name it: "scene.json:12: views.path" */
