@@ -336,6 +336,38 @@ static void a_path_misses_its_keys_or_has_a_corner(void **state)
         }
 }
 
+static void a_closed_path_that_begins_late_loses_its_way_back(void **state)
+{
+    (void)state;
+    tc_views views;
+    read_well(&views,
+              "{'path': [{'time': 0.25, 'position': [0, 0, 10]}, {'time': 0.75, 'position': [0, 0, 20]}], 'count': 8, "
+              "'closed': true}");
+    static const double z[8] = {15, 0, 10, 0, 15, 0, 20, 0}; /* 0: not looked at */
+    for (size_t i = 0; i < 8; i += 2)
+        near3(camera_of(&views, i, 1, NULL, NULL).position, 0, 0, z[i], 1e-13);
+    tc_views_finish(&views);
+}
+
+static void a_direction_loses_what_the_scene_says(void **state)
+{
+    (void)state;
+    tc_views views;
+    tc_camera c, own = base;
+    tc_talk talk;
+    tc_talk_init(&talk);
+    own.parallel = true;
+    own.clip_near = 3;
+    own.clip_far = 9;
+    own.window_center[1] = 0.25;
+    read_well(&views, "[{'direction': [1, 0, 0], 'view_angle': 60}]");
+    assert_int_equal(tc_view_camera(&c, NULL, NULL, &views, 0, 1, &own, bounds, 0.5, &talk), -1);
+    assert_true(c.parallel && c.clip_near == 3 && c.clip_far == 9 && c.window_center[1] == 0.25 && c.view_angle == 60);
+    assert_true(fabs(c.parallel_scale - 2 * sqrt(3)) < 1e-12); /* of a picture half as wide as high */
+    can_see(&c);
+    tc_views_finish(&views);
+}
+
 static void a_path_along_time_has_not_a_view_a_step(void **state)
 {
     (void)state;
@@ -488,6 +520,8 @@ int main(void)
         cmocka_unit_test(keys_of_a_camera_are_left_aside),
         cmocka_unit_test(a_path_is_not_vtks_spline),
         cmocka_unit_test(a_path_misses_its_keys_or_has_a_corner),
+        cmocka_unit_test(a_closed_path_that_begins_late_loses_its_way_back),
+        cmocka_unit_test(a_direction_loses_what_the_scene_says),
         cmocka_unit_test(a_path_along_time_has_not_a_view_a_step),
         cmocka_unit_test(a_camera_without_direction_is_made),
         cmocka_unit_test(a_name_is_not_the_views_own),
