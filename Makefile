@@ -26,7 +26,7 @@ CMAKE_ARGS ?=
 BENCH_ARGS ?=
 ACCURACY_ARGS ?=
 FUZZ_SECONDS ?= 60
-FUZZ_TARGETS ?= preset options mesh sniff wire reply split
+FUZZ_TARGETS ?= preset options paraview mesh sniff wire reply split
 
 BUILD := build
 
