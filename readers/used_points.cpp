@@ -85,19 +85,23 @@ bool apart(double *size, const Tets &points, const int32_t *corner, int n)
 }
 
 // Has the cell tets of one sign alone, however it is cut?
-bool unfolded(const std::vector<Corners> &tets, const Tets &points, const int32_t *corner, double size)
+bool unfolded(const std::vector<Corners> &tets, const Tets &points, const int32_t *corner, int n, double size)
 {
     const double least = sure_volume * size * size * size;
-    bool up = true, down = true;
+    double x[12][3], low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++)
+            x[i][k] = points.at(corner[i])[k];
     for (const Corners &t : tets) {
-        const double v = tet_volume6(points.at(corner[t[0]]), points.at(corner[t[1]]), points.at(corner[t[2]]),
-                                     points.at(corner[t[3]]));
-        up = up && v > least;
-        down = down && v < -least;
-        if (!up && !down)
-            return false;
+        const double *a = x[t[0]], *b = x[t[1]], *c = x[t[2]], *d = x[t[3]];
+        const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+        const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+        const double wx = d[0] - a[0], wy = d[1] - a[1], wz = d[2] - a[2];
+        const double v = (uy * vz - uz * vy) * wx + (uz * vx - ux * vz) * wy + (ux * vy - uy * vx) * wz;
+        low = v < low ? v : low;
+        high = v > high ? v : high;
     }
-    return true;
+    return low > least || high < -least;
 }
 
 } // namespace
@@ -145,7 +149,7 @@ bool find_used(std::vector<int32_t> &used, const Tets &points, const Gathered &d
                 corner[k] = (int32_t)(leaf.first_point + (size_t)id[k]);
             double size;
             if (!apart(&size, points, corner, n) ||
-                (type->shape != Shape::tetra && !unfolded(*possible, points, corner, size)))
+                (type->shape != Shape::tetra && !unfolded(*possible, points, corner, n, size)))
                 return false;
             for (int k = 0; k < n; k++)
                 mark[(size_t)corner[k]] = 1;

@@ -166,13 +166,18 @@ static void add_cube(grid *g, double x, double y, double z)
     add_cell(g, 12, 8, id);
 }
 
-/* A file of g whose points and cells have values from a row of odd numbers; value[i] at point i where given. */
+/* A file of g whose points and cells have values from a row of odd numbers; value[i] at point i where given. The
+ * vectors V have length 1 at each point, so that they are shorter at any other. */
 static void write_valued(const char *path, const grid *g, const double *value)
 {
     static char points[65536], cells[65536];
     int n = snprintf(points, sizeof points, "<DataArray type=\"Float64\" Name=\"P\" format=\"ascii\">");
     for (int i = 0; i < g->n_point; i++)
         n += snprintf(points + n, sizeof points - (size_t)n, "%.17g ", value ? value[i] : sin(7.0 * i));
+    n += snprintf(points + n, sizeof points - (size_t)n,
+                  "</DataArray><DataArray type=\"Float64\" Name=\"V\" NumberOfComponents=\"3\" format=\"ascii\">");
+    for (int i = 0; i < g->n_point; i++)
+        n += snprintf(points + n, sizeof points - (size_t)n, "%.17g %.17g 0 ", cos(2.0 * i), sin(2.0 * i));
     snprintf(points + n, sizeof points - (size_t)n, "</DataArray>");
     n = snprintf(cells, sizeof cells, "<DataArray type=\"Float64\" Name=\"C\" format=\"ascii\">");
     for (int i = 0; i < g->n_cell; i++)
