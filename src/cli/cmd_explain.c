@@ -190,8 +190,7 @@ static int tc_first_step_say(const tc_render_run *run, tc_talk *talk)
 }
 
 /* Its own options, then those of render. */
-enum { TC_EXPLAIN_OWN = 3, TC_EXPLAIN_ROWS = 256 };
-static const tc_option tc_explain_option[TC_EXPLAIN_OWN] = {
+static const tc_option tc_explain_option[] = {
     {.help = "Explanation"},
     {"--measure", 0, NULL, "milliseconds of each part of a frame, found by leaving it out", TC_OPTION_FLAG,
      .at = offsetof(tc_render_command, explain_measure)},
@@ -200,21 +199,9 @@ static const tc_option tc_explain_option[TC_EXPLAIN_OWN] = {
 
 static int tc_explain_run(tc_talk *talk, const tc_command *command, int argc, char **argv)
 {
-    tc_option rows[TC_EXPLAIN_ROWS];
-    tc_command whole = tc_command_render;
-    size_t n = tc_command_render.n_option;
-    if (n > TC_EXPLAIN_ROWS - TC_EXPLAIN_OWN)
-        n = TC_EXPLAIN_ROWS - TC_EXPLAIN_OWN;
-    memcpy(rows, tc_explain_option, sizeof tc_explain_option);
-    memcpy(rows + TC_EXPLAIN_OWN, tc_command_render.option, n * sizeof *rows);
-    whole.name = command->name;
-    whole.what = command->what;
-    whole.about = command->about;
-    whole.option = rows;
-    whole.n_option = TC_EXPLAIN_OWN + n;
     tc_render_command options;
     tc_render_run run = {0};
-    int code = tc_picture_command_read(&options, talk, &whole, argc, argv);
+    int code = tc_picture_command_read(&options, talk, command, argc, argv);
     if (code < 0)
         code = tc_render_open(&run, &options, talk);
     if (code < 0)
@@ -232,9 +219,15 @@ const tc_command tc_command_explain = {
     .name = "explain",
     .arguments = "INPUT",
     .what = "What a picture calls for and why: effects, passes, textures, programs.",
-    .about = "INPUT and the options are those of render (tetcast render --help); no picture is written.",
-    .option = tc_explain_option,
-    .n_option = TC_EXPLAIN_OWN,
+    .about = "INPUT and the options are those of render; no picture is written.",
+    .own = tc_explain_option,
+    .n_own = sizeof tc_explain_option / sizeof *tc_explain_option,
+    .option = tc_render_option,
+    .n_option = TC_N_RENDER_OPTION,
+    .also = tc_look_option,
+    .n_also = TC_N_LOOK_OPTION,
+    .also_at = offsetof(tc_render_command, look),
+    .given = offsetof(tc_render_command, given) + 1,
     .least = 1,
     .most = 1,
     .run = tc_explain_run,

@@ -42,8 +42,11 @@ static void tc_message_print(tc_talk *talk, const char *kind, const char *colour
         fprintf(stderr, "%s: ", talk->about);
     if (talk->from && kind && !strcmp(kind, "error"))
         fprintf(stderr, "%s: ", talk->from);
-    vfprintf(stderr, format, list);
-    fputc('\n', stderr);
+    char text[sizeof talk->last];
+    vsnprintf(text, sizeof text, format, list);
+    fprintf(stderr, "%s\n", text);
+    if (kind && !strcmp(kind, "error"))
+        memcpy(talk->last, text, sizeof text);
 }
 
 #define TC_TALK_VARIADIC(kind, colour)                                                                                 \

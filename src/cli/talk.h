@@ -24,6 +24,7 @@ typedef struct tc_talk {
     char about[24];   /* stands before each message: "step 3"; "": nothing does */
     const char *from; /* stands before each error: the scene that the values come from, which makes a wrong value failed
                        * work; NULL: the command line */
+    char last[1024];  /* the last error's sentence */
     tc_log log;       /* to hand to the library; its user is this struct */
 } tc_talk;
 

@@ -116,11 +116,24 @@ static size_t machine_memory(void)
     return bytes - bytes / 8;
 }
 
+/* Signals that this program has a handler for: it wants to end its work in order, for which it needs its helpers, whom the
+ * terminal or a scheduler sends them, too. */
+static void add_handled(sigset_t *out)
+{
+    static const int number[] = {SIGINT, SIGTERM};
+    for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
+        struct sigaction now;
+        if (sigaction(number[i], NULL, &now) == 0 && now.sa_handler != SIG_DFL && now.sa_handler != SIG_IGN)
+            sigaddset(out, number[i]);
+    }
+}
+
 /* What the child does with its descriptors and signals: 0 is /dev/null, 1 and 2 are the talk pipe, 3 is the socket. */
 static int prepare_spawn(posix_spawn_file_actions_t *files, posix_spawnattr_t *attributes, int socket, int talk)
 {
-    sigset_t none, standard;
-    sigemptyset(&none);
+    sigset_t blocked, standard;
+    sigemptyset(&blocked);
+    add_handled(&blocked);
     sigemptyset(&standard);
     static const int reset[] = {SIGPIPE, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGCHLD, SIGALRM, SIGUSR1, SIGUSR2, SIGXFSZ};
     for (size_t i = 0; i < sizeof reset / sizeof *reset; i++)
@@ -132,7 +145,7 @@ static int prepare_spawn(posix_spawn_file_actions_t *files, posix_spawnattr_t *a
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
     code = code ? code : posix_spawn_file_actions_addclosefrom_np(files, TC_WIRE_SOCKET + 1);
 #endif
-    code = code ? code : posix_spawnattr_setsigmask(attributes, &none);
+    code = code ? code : posix_spawnattr_setsigmask(attributes, &blocked);
     code = code ? code : posix_spawnattr_setsigdefault(attributes, &standard);
     return code ? code : posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 }

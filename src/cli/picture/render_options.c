@@ -2,6 +2,7 @@
 #include "cli/picture/render_options.h"
 #include "cli/commands.h"
 #include "cli/json_out.h"
+#include "cli/picture/numbers.h"
 #include "cli/scene/paraview.h"
 
 #include <stdio.h>
@@ -262,7 +263,7 @@ bool tc_choice_asked(const tc_render_command *options)
     return options->error > 0 || options->frame_time > 0;
 }
 
-static int tc_output_kind_check(const char *path, tc_talk *talk)
+int tc_output_kind_check(const char *path, tc_talk *talk)
 {
     static const char *const known[] = {".png", ".exr", ".tif", ".tiff", ".jpg", ".jpeg"};
     const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
@@ -452,6 +453,9 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
         return tc_given_refuse(given, talk, judge, lines, "%s%s draws no lines: leave %s out, or that option", judge,
                                reference ? " reference" : ", the reference that is compared with,", lines);
     }
+    if ((out->out.depth || out->out.value) && tc_numbers_wrong(out))
+        return tc_given_refuse(given, talk, out->out.depth ? "--depth" : "--value", "--model", "%s",
+                               tc_numbers_wrong(out));
     if (out->preset && !out->color_map)
         return tc_given_refuse(given, talk, "--preset", NULL,
                                "--preset names a map of a file: give the file with --color-map");

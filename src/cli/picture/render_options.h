@@ -103,6 +103,9 @@ void tc_render_command_finish(tc_render_command *command);
 /* Do both names lead to one file, there or to be written? */
 bool tc_same_file(const char *a, const char *b);
 
+/* Does the name end in a picture's extension? -1, or the exit code of an error that was printed. */
+int tc_output_kind_check(const char *path, tc_talk *talk);
+
 /* --size WxH: a custom option whose field is a tc_size. */
 bool tc_size_parse(void *field, const char *text, char *why);
 

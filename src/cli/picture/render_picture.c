@@ -1,6 +1,7 @@
 /* render_picture.c: from a prepared mesh to one picture in a file. */
 #include "cli/picture/render_picture.h"
 #include "cli/picture/look_build.h"
+#include "cli/picture/numbers.h"
 #include "cli/picture/render_choose.h"
 #include "cli/picture/render_verify.h"
 #include "cli/picture/render_view.h"
@@ -110,14 +111,22 @@ static int tc_frames_run(tc_render_run *run, tc_frames *frames, tc_talk *talk)
 static int tc_picture_write(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
 {
     tc_error err = {0};
-    tc_picture_file file = {0};
-    int code = tc_picture_dress(run, talk);
+    tc_picture_file file[3] = {{0}}; /* what is beside the picture, then the picture */
+    const char *path = run->options->output;
+    int n = 0, code = tc_picture_dress(run, talk);
+    tc_picture_file own = {0};
     if (code < 0)
-        code = tc_picture_file_make(&file, run, run->options->output, argc, argv, talk);
+        code = tc_picture_file_make(&own, run, path, argc, argv, talk);
+    if (code < 0)
+        code = tc_numbers_make(file, &n, &own, run, frames->renderer, path, talk);
+    file[n++] = own;
     double start = tc_talk_clock_s();
-    tc_status status = code < 0 ? tc_picture_file_write(&file, frames->writer, &talk->log, &err) : TC_OK;
+    tc_status status = TC_OK;
+    for (int i = 0; i < n && code < 0 && status == TC_OK; i++)
+        status = tc_picture_file_write(&file[i], frames->writer, &talk->log, &err);
     run->ms_write = 1e3 * (tc_talk_clock_s() - start);
-    tc_picture_file_finish(&file);
+    for (int i = 0; i < n; i++)
+        tc_picture_file_finish(&file[i]);
     return status ? tc_talk_status(talk, status, &err) : code;
 }
 

@@ -1,0 +1,414 @@
+/* run.c: the frames of a batch: while one is rendered the step after it is read and those before it are written. A mesh that
+ * stays the same is set up once; of each step and field the values are put onto it, of each transfer function it is looked at
+ * from all views in turn. */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/batch/run.h"
+#include "cli/batch/digest.h"
+#include "cli/batch/folder.h"
+#include "cli/batch/stop.h"
+#include "cli/batch/writers.h"
+#include "cli/picture/numbers.h"
+#include "cli/picture/render_figure.h"
+#include "cli/picture/render_picture.h"
+#include "cli/picture/render_setup.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { TC_FAILED_MOST = 3, TC_WRITERS_MOST = 4, TC_ARGUMENTS = 256 };
+
+typedef struct tc_run {
+    tc_batch_frames *frames;
+    tc_batch_base *base;
+    tc_catalogue *catalogue;
+    const tc_batch_scene *scene;
+    tc_report *report;
+    tc_talk *talk;
+    tc_writers *writers;
+    size_t room;
+    tc_frames renderer;
+    tc_render_run *kept; /* [looks] function and look of each */
+    char *argument[TC_ARGUMENTS]; /* the command that the pictures name */
+    int n_argument;
+    char data[512];       /* identity of the file at hand */
+    size_t empty;         /* pictures in which nothing is seen */
+    char empty_why[1024];
+    char warned[512];     /* what a writer said last */
+    int failed_in_a_row;  /* writes */
+    bool bounded;         /* --memory was looked at */
+} tc_run;
+
+static int tc_no_memory(tc_talk *talk)
+{
+    tc_talk_error(talk, "memory ran out");
+    return TC_EXIT_FAILED;
+}
+
+/* --------------------------------------------------------------------------------------------------------- writing */
+
+/* What became of a frame that was written. -1, or the exit code that ends the run. */
+static int tc_written_note(tc_run *r, const tc_written *w)
+{
+    tc_batch_frame *frame = &r->frames->frame[w->frame];
+    const tc_name_values values = tc_batch_values(r->frames, r->base, r->scene, w->frame);
+    if (*w->warning && strcmp(r->warned, w->warning) != 0) {
+        snprintf(r->warned, sizeof r->warned, "%s", w->warning);
+        tc_talk_warning(r->talk, "%s", w->warning);
+    }
+    frame->state = w->status == TC_OK ? TC_STATE_DONE : TC_STATE_FAILED;
+    tc_report_frame(r->report, w->status == TC_OK ? TC_FRAME_DONE : TC_FRAME_FAILED, w->frame, frame->file, values.step,
+                    values.time, w->status == TC_OK ? NULL : w->err.text, w->ms, w->bytes);
+    if (w->status == TC_OK) {
+        r->failed_in_a_row = 0;
+        return tc_catalogue_add(r->catalogue, r->frames, r->base, r->scene, w->frame, r->talk);
+    }
+    tc_talk_error(r->talk, "%s", w->err.text);
+    if (++r->failed_in_a_row < TC_FAILED_MOST)
+        return -1;
+    tc_talk_error(r->talk, "%d pictures in a row could not be written: the batch ends; with --resume it goes on",
+                  r->failed_in_a_row);
+    return TC_EXIT_FAILED;
+}
+
+/* Those that are done; wait: all that are under way. */
+static int tc_written_take(tc_run *r, bool wait)
+{
+    tc_written written;
+    int code = -1;
+    while (tc_writers_take(&written, r->writers, wait)) {
+        int ends = tc_written_note(r, &written);
+        code = code < 0 ? ends : code;
+    }
+    return code;
+}
+
+/* ---------------------------------------------------------------------------------------------------------- memory */
+
+/* --memory, once a first picture shows what one takes: how many may wait, whether a step may be read ahead. */
+static int tc_memory_bound(tc_run *r, const tc_render_run *run)
+{
+    const uint64_t most = r->scene->look[0].memory;
+    size_t self, helper;
+    if (most == 0 || r->bounded)
+        return -1;
+    r->bounded = true;
+    tc_memory_peak(&self, &helper);
+    const double used = (double)self + (double)helper;
+    const double picture = 16.0 * run->options->size.width * run->options->size.height;
+    const double mesh = 220.0 * (double)run->report.n_tet; /* that moves: another one beside it while it is set up */
+    if (used > (double)most) {
+        tc_talk_error(r->talk, "a first picture takes %.0f MiB of memory, more than --memory, %.0f MiB: allow more, or make "
+                               "--size smaller",
+                      used / 1048576, (double)most / 1048576);
+        return TC_EXIT_FAILED;
+    }
+    const double left = (double)most - used;
+    r->base->loader.never_ahead = left < mesh + picture;
+    const double waiting = floor((left - (r->base->loader.never_ahead ? 0 : mesh)) / (2 * picture));
+    r->room = waiting < (double)r->room ? (waiting > 1 ? (size_t)waiting : 1) : r->room;
+    tc_writers_set_room(r->writers, r->room);
+    return -1;
+}
+
+/* ---------------------------------------------------------------------------------------------------------- frames */
+
+/* The command that a picture names: what makes it what it is, not how the run went. */
+static int tc_arguments_make(tc_run *r)
+{
+    const tc_given_list *given = &r->scene->look[0].picture.given;
+    size_t n_key;
+    const tc_scene_key *key = tc_scene_keys(&n_key);
+    r->argument[r->n_argument++] = strdup("batch");
+    r->argument[r->n_argument++] = strdup(r->scene->path ? r->scene->path : r->scene->series.path[0]);
+    for (size_t i = 0; i < given->n && r->n_argument + 2 < TC_ARGUMENTS; i++) {
+        bool kept = false;
+        const char *name = given->item[i].option->name;
+        for (size_t k = 0; k < n_key; k++)
+            kept = kept || (key[k].option && key[k].role == TC_KEY_PICTURE && !strcmp(key[k].option, name));
+        if (!kept || given->item[i].called != name)
+            continue;
+        r->argument[r->n_argument++] = strdup(name);
+        r->argument[r->n_argument++] = strdup(given->item[i].text ? given->item[i].text : "");
+    }
+    for (int i = 0; i < r->n_argument; i++)
+        if (!r->argument[i])
+            return tc_no_memory(r->talk);
+    return -1;
+}
+
+/* The title with its placeholders filled, in the options and among what was given, so that the picture made again has it.
+ * title [1024]. */
+static void tc_title_fill(tc_render_command *options, tc_given_list *given, char *title, const tc_name_values *values)
+{
+    char why[256];
+    if (!options->look.title || !tc_name_uses(options->look.title, why, sizeof why) ||
+        !tc_name_make(title, 1024, options->look.title, values, why, sizeof why))
+        return;
+    for (size_t i = 0; i < given->n; i++)
+        if (!strcmp(given->item[i].option->name, "--title"))
+            given->item[i].text = title;
+    options->look.title = title;
+}
+
+/* All files of a frame, from the picture that was rendered. */
+static int tc_files_make(tc_run *r, tc_frame_files *out, tc_render_run *run, size_t number)
+{
+    const char *file = r->frames->frame[number].file;
+    tc_picture_file own = {0};
+    *out = (tc_frame_files){.frame = number};
+    int code = tc_picture_dress(run, r->talk);
+    if (code < 0)
+        code = tc_picture_file_make(&own, run, file, r->n_argument, r->argument, r->talk);
+    if (code < 0)
+        code = tc_numbers_make(out->file, &out->n, &own, run, r->renderer.renderer, file, r->talk);
+    char *text = code < 0 ? tc_batch_frame_text(r->frames, r->base, r->scene, number, r->data) : NULL;
+    if (code < 0 && !text)
+        code = tc_no_memory(r->talk);
+    tc_meta_add(&own.meta, "tetcast:frame", text);
+    out->file[out->n++] = own;
+    return code < 0 ? tc_folders_make(file, r->talk) : code;
+}
+
+static void tc_empty_note(tc_run *r, const tc_render_run *run, size_t number)
+{
+    char why[640];
+    if (!tc_picture_is_empty(why, sizeof why, run))
+        return;
+    if (r->empty++ == 0)
+        snprintf(r->empty_why, sizeof r->empty_why, "%.300s: %s", r->frames->frame[number].file, why);
+}
+
+/* A picture of the mesh, which holds its step and field, with a look that is set up. -1, or the exit code of an error that was
+ * printed. */
+static int tc_frame_make(tc_run *r, const tc_render_run *base, size_t number)
+{
+    char title[1024];
+    const tc_plan_frame place = tc_plan_frame_at(&r->frames->plan, number);
+    const size_t view = tc_batch_view_of(r->frames, &place);
+    const tc_batch_command *look = &r->scene->look[place.field * r->scene->n_function + place.function];
+    const tc_name_values values = tc_batch_values(r->frames, r->base, r->scene, number);
+    tc_render_run run = *base;
+    tc_render_command options = *base->options;
+    tc_frame_files files = {.n = 0};
+    tc_given_list given = {.n = options.given.n, .item = malloc((options.given.n + 1) * sizeof *given.item)};
+    if (!given.item)
+        return tc_no_memory(r->talk);
+    memcpy(given.item, options.given.item, options.given.n * sizeof *given.item);
+    options.given = given;
+    run.options = &options;
+    tc_title_fill(&options, &given, title, &values);
+    run.camera = r->frames->view[view].camera;
+    int code = -1;
+    if (tc_camera_over(look) == TC_OVER_STEP)
+        code = tc_batch_view_camera(&run.camera, r->frames, r->scene, view, run.report.bounds, r->talk);
+    if (code < 0 && r->scene->views.kind != TC_VIEWS_LIST && r->scene->views.kind != TC_VIEWS_PATH)
+        code = tc_render_figure_fit(&run, r->talk);
+    if (code < 0)
+        code = tc_picture_render(&run, &r->renderer, r->talk);
+    if (code < 0) {
+        tc_empty_note(r, &run, number);
+        code = tc_memory_bound(r, &run);
+    }
+    if (code < 0)
+        code = tc_files_make(r, &files, &run, number);
+    if (code < 0 && !tc_writers_put(r->writers, &files))
+        code = tc_no_memory(r->talk);
+    tc_frame_files_finish(&files);
+    tc_image_destroy(&run.image);
+    free(given.item);
+    return code;
+}
+
+/* A frame that could not be made: the others may. */
+static void tc_frame_fail(tc_run *r, size_t number, const char *why)
+{
+    const tc_name_values values = tc_batch_values(r->frames, r->base, r->scene, number);
+    r->frames->frame[number].state = TC_STATE_FAILED;
+    tc_report_frame(r->report, TC_FRAME_FAILED, number, r->frames->frame[number].file, values.step, values.time, why, NAN,
+                    0);
+}
+
+/* ----------------------------------------------------------------------------------------------------------- loads */
+
+/* The next step and field, from a position and field on, that has frames to do. False: none has. */
+static bool tc_next_load(const tc_run *r, size_t *position, size_t *field)
+{
+    const tc_plan *plan = &r->frames->plan;
+    for (; *position < plan->n_step; (*position)++, *field = 0) {
+        const tc_plan_span span = tc_plan_span_of(plan, *position);
+        for (; *field < plan->n_field && span.n > 0; (*field)++)
+            for (size_t i = span.first; i < span.first + span.n; i++)
+                if (r->frames->frame[i].state == TC_STATE_TO_DO && tc_plan_frame_at(plan, i).field == *field)
+                    return true;
+    }
+    return false;
+}
+
+static bool tc_to_do(const tc_run *r, size_t frame, size_t field, size_t function)
+{
+    const tc_plan_frame place = tc_plan_frame_at(&r->frames->plan, frame);
+    return r->frames->frame[frame].state == TC_STATE_TO_DO && place.field == field && place.function == function;
+}
+
+/* Reads what comes after this load meanwhile. */
+static void tc_next_begin(tc_run *r, size_t position, size_t field)
+{
+    field++;
+    if (!tc_next_load(r, &position, &field))
+        return;
+    const tc_load load = tc_batch_load(r->base, r->scene, r->frames->plan.step[position], field);
+    tc_loader_begin(&r->base->loader, &load);
+}
+
+/* The range that the function is laid over. */
+static const double *tc_range_of(const tc_run *r, const tc_render_run *run, const tc_batch_command *look, size_t field)
+{
+    const double *range = r->base->range[field];
+    return tc_range_over(look) == TC_OVER_STEP || !(range[0] <= range[1]) ? run->report.scalar_range : range;
+}
+
+/* All views of one function, of the load that the mesh holds. begin: the next load may be read once the look is there. */
+static int tc_function_make(tc_run *r, size_t position, size_t field, size_t function, const tc_load *load, bool *begin)
+{
+    const tc_plan_span span = tc_plan_span_of(&r->frames->plan, position);
+    const size_t at = field * r->scene->n_function + function;
+    const tc_batch_command *look = &r->scene->look[at];
+    tc_render_command options = look->picture;
+    tc_render_run run = r->kept[at];
+    size_t first = span.first;
+    while (first < span.first + span.n && !tc_to_do(r, first, field, function))
+        first++;
+    if (first == span.first + span.n)
+        return -1;
+    options.input = load->path;
+    options.source.has_time = options.steps.there = false;
+    options.source.has_step = load->step >= 0;
+    options.source.step = load->step >= 0 ? load->step : 0;
+    run.options = &options;
+    run.mesh = r->base->loader.mesh;
+    run.ms_read = run.ms_write = run.ms_total = NAN;
+    tc_mesh_get_report(&run.report, run.mesh);
+    if (!(options.unit_distance > 0))
+        options.unit_distance =
+            tc_unit_over(look) == TC_OVER_STEP ? tc_default_unit_distance(run.mesh) : r->base->unit;
+    if (tc_range_over(look) == TC_OVER_STEP)
+        tc_transfer_destroy(&run.tf);
+    int code = tc_render_setup(&run, tc_range_of(r, &run, look, field), r->talk);
+    r->kept[at].tf = run.tf;
+    r->kept[at].look = run.look;
+    memcpy(r->kept[at].range, run.range, sizeof run.range);
+    if (*begin)
+        tc_next_begin(r, position, field);
+    *begin = false;
+    if (code >= 0) { /* a look that this step's values do not allow */
+        char why[sizeof r->talk->last];
+        snprintf(why, sizeof why, "%s", r->talk->last);
+        for (size_t i = first; i < span.first + span.n; i++)
+            if (tc_to_do(r, i, field, function))
+                tc_frame_fail(r, i, why);
+        return -1;
+    }
+    for (size_t i = first; i < span.first + span.n && code < 0 && !tc_stop_asked(); i++) {
+        if (!tc_to_do(r, i, field, function))
+            continue;
+        tc_report_bar(r->report, r->frames->frame[i].file);
+        code = tc_frame_make(r, &run, i);
+        if (code >= 0 && r->bounded && r->base->loader.set_up == 0)
+            return code;
+        if (code >= 0) {
+            tc_frame_fail(r, i, r->talk->last);
+            code = -1;
+        } else {
+            r->frames->frame[i].state = TC_STATE_DONE; /* or, once it could not be written, failed */
+        }
+        int ends = tc_written_take(r, false);
+        code = code < 0 ? ends : code;
+    }
+    return code;
+}
+
+/* All frames of one step and field. */
+static int tc_load_make(tc_run *r, size_t position, size_t field)
+{
+    const tc_plan *plan = &r->frames->plan;
+    const tc_load load = tc_batch_load(r->base, r->scene, plan->step[position], field);
+    bool fresh, begin = true;
+    snprintf(r->talk->about, sizeof r->talk->about, "step %d", load.number);
+    int code = tc_loader_get(&r->base->loader, &fresh, &load, r->talk);
+    if (code >= 0) { /* told; the others go on */
+        const tc_plan_span span = tc_plan_span_of(plan, position);
+        size_t n = 0;
+        for (size_t i = span.first; i < span.first + span.n; i++)
+            if (r->frames->frame[i].state == TC_STATE_TO_DO && tc_plan_frame_at(plan, i).field == field) {
+                r->frames->frame[i].state = TC_STATE_FAILED;
+                n++;
+            }
+        char what[64];
+        snprintf(what, sizeof what, "step %d (%zu pictures)", load.number, n);
+        tc_report_failed(r->report, what, r->talk->last, n);
+        return -1;
+    }
+    tc_identity_make(r->data, sizeof r->data, load.path);
+    for (size_t k = 0; k < plan->n_function && code < 0 && !tc_stop_asked(); k++)
+        code = tc_function_make(r, position, field, k, &load, &begin);
+    return code;
+}
+
+static int tc_run_open(tc_run *r)
+{
+    const tc_render_command *first = &r->scene->look[0].picture;
+    const size_t looks = r->scene->n_field * r->scene->n_function;
+    const long cores = first->source.threads > 0 ? first->source.threads : sysconf(_SC_NPROCESSORS_ONLN);
+    const int n = cores >= 2 * TC_WRITERS_MOST ? TC_WRITERS_MOST : cores > 2 ? (int)cores / 2 : 1;
+    int code = tc_frames_make(&r->renderer, first, r->talk);
+    r->kept = calloc(looks, sizeof *r->kept);
+    r->room = (size_t)n + 2;
+    r->writers = code < 0 ? tc_writers_start(n, r->room) : NULL;
+    if (code < 0 && (!r->kept || !r->writers))
+        code = tc_no_memory(r->talk);
+    if (code < 0)
+        code = tc_arguments_make(r);
+    return code < 0 ? tc_render_ready(&r->renderer, r->talk) : code;
+}
+
+static void tc_run_close(tc_run *r)
+{
+    const size_t looks = r->scene->n_field * r->scene->n_function;
+    for (size_t i = 0; r->kept && i < looks; i++) {
+        r->kept[i].mesh = NULL;
+        tc_render_close(&r->kept[i]);
+    }
+    free(r->kept);
+    for (int i = 0; i < r->n_argument; i++)
+        free(r->argument[i]);
+    tc_frames_finish(&r->renderer);
+    tc_writers_stop(&r->writers);
+}
+
+int tc_batch_run(tc_batch_frames *frames, tc_batch_base *base, tc_catalogue *catalogue, const tc_batch_scene *scene,
+                 tc_report *report, tc_talk *talk)
+{
+    tc_run r = {.frames = frames, .base = base, .catalogue = catalogue, .scene = scene, .report = report, .talk = talk};
+    size_t position = 0, field = 0;
+    const tc_log log = talk->log;
+    int code = tc_run_open(&r);
+    if (talk->terminal)
+        talk->log.progress = NULL; /* the bar is on the line */
+    while (code < 0 && !tc_stop_asked() && tc_next_load(&r, &position, &field)) {
+        code = tc_load_make(&r, position, field);
+        field++;
+    }
+    *talk->about = 0;
+    if (r.writers) {
+        int ends = tc_written_take(&r, true);
+        code = code < 0 ? ends : code;
+    }
+    talk->log = log;
+    if (r.empty > 0)
+        tc_talk_always(talk, "%zu %s: %s", r.empty, r.empty == 1 ? "picture is empty" : "pictures are empty, the first one",
+                       r.empty_why);
+    tc_run_close(&r);
+    return code;
+}
