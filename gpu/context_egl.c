@@ -56,11 +56,14 @@ static void close_display(egl_state *s)
     s->display = EGL_NO_DISPLAY;
 }
 
-/* The API is that of the calling thread, which need not be the one that made the context. */
+/* The API is that of the calling thread, which need not be the one that made the context. What is current goes first: EGL
+ * does nothing for a context that it believes to be current, but which OSMesa took away without its knowing: both may be
+ * of one Mesa. */
 static tc_status egl_make_current(tc_context *context, tc_error *err)
 {
     egl_state *s = context->state;
     s->bind_api(EGL_OPENGL_API);
+    s->make_current(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (!s->make_current(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context))
         return tc_fail(err, TC_E_GL, "EGL refused to make a context without a surface current");
     return TC_OK;
