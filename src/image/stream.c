@@ -16,9 +16,9 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Bytes of PNG that are held before they are written; bytes of rows in one request; rows between two lines of progress.
- */
-enum { HELD = 1 << 18, BLOCK = 1 << 24, PROGRESS_ROWS = 256 };
+/* Bytes of PNG that are held before they are written; bytes of rows in one request; rows that TIFF and EXR compress at
+ * once; rows between two lines of progress. */
+enum { HELD = 1 << 18, BLOCK = 1 << 24, STRIP = 32, PROGRESS_ROWS = 256 };
 
 struct tc_image_stream {
     char *path;
@@ -227,10 +227,11 @@ static tc_status begun(tc_image_stream *s, tc_error *err)
 static tc_status put_other(tc_image_stream *s, const float *rgba, const float *depth, int rows, tc_error *err)
 {
     const size_t row = 4 * (size_t)s->width, fit = BLOCK / (row * sizeof *rgba);
-    const int block = fit < 1 ? 1 : fit >= 64 ? (int)(fit / 64 * 64) : (int)fit;
+    const int block = fit < STRIP ? STRIP : (int)(fit / STRIP * STRIP);
     tc_status status = begun(s, err);
-    for (int y = 0; y < rows && status == TC_OK; y += block) {
-        const int n = rows - y < block ? rows - y : block;
+    for (int y = 0, n; y < rows && status == TC_OK; y += n) {
+        n = block - s->rows % STRIP; /* to the end of a strip, whatever came before */
+        n = n < rows - y ? n : rows - y;
         const tc_array array[2] = {
             {"rgba", TC_F32, (size_t)n * row, rgba + (size_t)y * row},
             {"depth", TC_F32, (size_t)n * (size_t)s->width, depth ? depth + (size_t)y * (size_t)s->width : NULL}};
