@@ -1,5 +1,6 @@
 /* cmd_batch.c: `tetcast batch`: all pictures of a scene. */
 #include "cli/batch/batch_options.h"
+#include "cli/batch/films.h"
 #include "cli/batch/run.h"
 #include "cli/batch/stop.h"
 
@@ -102,6 +103,8 @@ static int tc_batch_make(tc_batch_frames *frames, tc_batch_base *base, const tc_
         code = tc_batch_run(frames, base, &catalogue, scene, &report, talk);
     int saved = tc_catalogue_save(&catalogue, talk);
     code = code < 0 ? saved : code;
+    if (code < 0)
+        code = tc_films_make(frames, base, scene, &report, talk);
     tc_report_end(&report, tc_stop_asked());
     const bool whole = report.failed == 0 && !tc_stop_asked();
     tc_report_finish(&report);
@@ -124,6 +127,8 @@ int tc_batch_run_command(tc_talk *talk, const tc_command *command, int argc, cha
         code = tc_batch_base_survey(&base, &scene, frames.plan.step, frames.plan.n_step, talk);
     if (code < 0)
         code = tc_batch_frames_make(&frames, &base, &scene, talk);
+    if (code < 0)
+        code = tc_films_check(&frames, &base, &scene, talk);
     if (code < 0)
         code = tc_batch_make(&frames, &base, &scene, talk);
     tc_batch_frames_finish(&frames);

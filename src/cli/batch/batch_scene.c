@@ -182,8 +182,11 @@ int tc_batch_scene_read(tc_batch_scene *out, tc_talk *talk, int argc, char **arg
     if (!json_is_string(data) && !json_is_array(data))
         return tc_refuse(out, "data", talk, "takes the name of a file, a pattern, or a list of them");
     code = tc_series_make(&out->series, data, json_object_get(out->json, "times"), out->folder, talk);
-    if (code < 0 && views)
-        code = tc_views_read(&out->views, views, out->path, talk);
+    if (code < 0 && views) {
+        char called[512];
+        snprintf(called, sizeof called, "%.400s:%d: views", out->path, tc_json_line(out->text, "", "views"));
+        code = tc_views_read(&out->views, views, called, talk);
+    }
     if (code < 0)
         code = tc_looks_take(out, talk, argc, argv);
     talk->from = NULL; /* what goes wrong from now on is not the scene's */

@@ -180,6 +180,15 @@ static void tc_empty_note(tc_run *r, const tc_render_run *run, size_t number)
         snprintf(r->empty_why, sizeof r->empty_why, "%.300s: %s", r->frames->frame[number].file, why);
 }
 
+/* Does nothing of the view say how large the mesh is in the picture and where? Then it makes room for title and bar. */
+static bool tc_view_is_free(const tc_batch_scene *scene, size_t view)
+{
+    const unsigned own = TC_VIEW_POSITION | TC_VIEW_FOCAL_POINT | TC_VIEW_SCALE | TC_VIEW_ZOOM | TC_VIEW_CLIPPING |
+                         TC_VIEW_WINDOW;
+    const tc_views *views = &scene->views;
+    return views->kind != TC_VIEWS_PATH && (views->kind != TC_VIEWS_LIST || !(views->key[view].has & own));
+}
+
 /* A picture of the mesh, which holds its step and field, with a look that is set up. -1, or the exit code of an error that was
  * printed. */
 static int tc_frame_make(tc_run *r, const tc_render_run *base, size_t number)
@@ -203,7 +212,7 @@ static int tc_frame_make(tc_run *r, const tc_render_run *base, size_t number)
     int code = -1;
     if (tc_camera_over(look) == TC_OVER_STEP)
         code = tc_batch_view_camera(&run.camera, r->frames, r->scene, view, run.report.bounds, r->talk);
-    if (code < 0 && r->scene->views.kind != TC_VIEWS_LIST && r->scene->views.kind != TC_VIEWS_PATH)
+    if (code < 0 && tc_view_is_free(r->scene, view))
         code = tc_render_figure_fit(&run, r->talk);
     if (code < 0)
         code = tc_picture_render(&run, &r->renderer, r->talk);
