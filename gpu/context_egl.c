@@ -56,9 +56,9 @@ static void close_display(egl_state *s)
     s->display = EGL_NO_DISPLAY;
 }
 
-/* The API is that of the calling thread, which need not be the one that made the context. What is current goes first: EGL
- * does nothing for a context that it believes to be current, but which OSMesa took away without its knowing: both may be
- * of one Mesa. */
+/* The API is that of the calling thread, which need not be the one that made the context. What is current goes first:
+ * EGL does nothing for a context that it believes to be current, but which OSMesa took away without its knowing: both
+ * may be of one Mesa. */
 static tc_status egl_make_current(tc_context *context, tc_error *err)
 {
     egl_state *s = context->state;
