@@ -49,7 +49,8 @@ TC_API void tc_field_info(double range[2], tc_association *association, const ch
  *                    clearer. In the part of a cell that reaches it (cells are cut by clipping, and where surfaces lie),
  *                    with transmittances T0 > T >= T1 before it, wanted and behind it, the place is at ln(T0/T) / ln(T0/T1)
  *                    of its length (T1 = 0: at its beginning), the scalar linear between its ends, or 0 where it has the
- *                    colour of missing values. One ray a pixel; no light, no color_field; opacity_stop is not looked at */
+ *                    colour of missing values; numbers beyond floats are the largest float. One ray a pixel; no light, no
+ *                    color_field, no integrator but EXACT (or AUTO), no state of 16 bits; opacity_stop is not looked at */
 typedef enum tc_model {
     TC_MODEL_DENSITY_EMITTER = 0,
     TC_MODEL_EMISSION = 1,

@@ -270,12 +270,12 @@ static void add_cell(walk *w, const cell *c)
     }
 }
 
-/* 1 - opacity, as far as there is a ray behind it to tell. */
+/* 1 - opacity, as far as there is a ray behind it to tell. Products of what surfaces leave reach it to rounding. */
 static double wanted_of(const tc_look *look)
 {
     if (look->model != TC_MODEL_DEPTH)
         return -1;
-    return fmax(1 - (look->depth_opacity > 0 ? look->depth_opacity : 0.5), 1e-16);
+    return fmax(1 - (look->depth_opacity > 0 ? look->depth_opacity : 0.5), 1e-16) * (1 + 1e-13);
 }
 
 /* The colour of what was measured lies behind all that was composited. */

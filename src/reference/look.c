@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/vec.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -193,4 +194,6 @@ void tc_look_depth(double rgba[4], const tc_reference *reference, const tc_rays 
         return;
     tc_vec_sub(from_eye, origin, rays->eye);
     rgba[0] = tc_vec_dot(from_eye, rays->axis) + rgba[0] * tc_vec_dot(direction, rays->axis);
+    for (int i = 0; i < 2; i++)
+        rgba[i] = fmin(fmax(rgba[i], -FLT_MAX), FLT_MAX);
 }

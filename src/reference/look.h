@@ -22,8 +22,8 @@ struct tc_look_ready {
 /* Leaves of the line what planes and box keep. */
 void tc_look_cut(tc_line *line, const tc_reference *reference);
 
-/* Of a ray that gave a place (TC_MODEL_DEPTH): its distance from the origin becomes that from the eye's plane. Of others
- * nothing changes. */
+/* Of a ray that gave a place (TC_MODEL_DEPTH): its distance from the origin becomes that from the eye's plane, and
+ * both numbers are kept within floats. Of others nothing changes. */
 void tc_look_depth(double rgba[4], const tc_reference *reference, const tc_rays *rays, const double origin[3],
                    const double direction[3]);
 
