@@ -301,6 +301,30 @@ static void the_background_is_told_in_each_versions_way(void **state)
     }
 }
 
+static void blend_modes_are_models_or_noted(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *shown, *model;
+    } test[] = {
+        {FIELD PROPERTY("BlendMode", VALUE("0")), NULL},      {FIELD PROPERTY("BlendMode", VALUE("1")), "mip"},
+        {FIELD PROPERTY("BlendMode", VALUE("3")), "average"}, {FIELD PROPERTY("BlendMode", VALUE("4")), ""},
+        {FIELD PROPERTY("BlendMode", VALUE("1e300")), ""},    {FIELD PROPERTY("BlendMode", VALUE("-1")), ""},
+    };
+    for (size_t t = 0; t < sizeof test / sizeof *test; t++) {
+        tc_paraview_notes notes;
+        text_parts part = plain;
+        part.shown = test[t].shown;
+        json_t *scene = scene_of(&notes, &part);
+        const char *model = json_string_value(at(scene, "effects", "model"));
+        const bool named = test[t].model && *test[t].model;
+        assert_true(model ? named && !strcmp(model, test[t].model) : !named);
+        assert_int_equal(noted(&notes, "(--model)"), test[t].model && !*test[t].model);
+        json_decref(scene);
+        tc_paraview_notes_finish(&notes);
+    }
+}
+
 #define READER_OF(times)                                                                                               \
     "<Proxy group='sources' type='R' id='9'>" PROPERTY("FileName", VALUE("a.ex2")) PROPERTY("TimestepValues", times)   \
         PROPERTY("ElementBlocks", VALUE("one") VALUE("1") VALUE("two") VALUE("0")) "</Proxy>"
@@ -373,6 +397,25 @@ static void an_animated_camera_becomes_a_path(void **state)
     tc_paraview_notes_finish(&notes);
 }
 
+static void views_of_a_file_are_its_cameras_path_alone(void **state)
+{
+    (void)state;
+    const char *source = getenv("TC_SOURCE");
+    char path[4096];
+    json_t *views;
+    if (!source)
+        skip();
+    snprintf(path, sizeof path, "%s/tests/cli/paraview/left_out.pvsm", source);
+    assert_int_equal(tc_paraview_views(&views, path, &talk), -1);
+    assert_int_equal(json_array_size(json_object_get(views, "path")), 2);
+    json_decref(views);
+    snprintf(path, sizeof path, "%s/tests/cli/paraview/volume.pvsm", source);
+    assert_int_equal(tc_paraview_views(&views, path, &talk), -1);
+    assert_null(views);
+    assert_int_equal(tc_paraview_views(&views, "none.pvsm", &talk), TC_EXIT_FAILED);
+    assert_null(views);
+}
+
 static void what_is_chosen_from_in_a_domain_is_not_what_is_chosen(void **state)
 {
     (void)state;
@@ -405,8 +448,10 @@ int main(void)
         cmocka_unit_test(missing_values_show_where_the_first_opacity_is_above_zero),
         cmocka_unit_test(the_array_is_told_in_each_versions_way),
         cmocka_unit_test(the_background_is_told_in_each_versions_way),
+        cmocka_unit_test(blend_modes_are_models_or_noted),
         cmocka_unit_test(time_is_the_animations_where_the_data_have_steps),
         cmocka_unit_test(an_animated_camera_becomes_a_path),
+        cmocka_unit_test(views_of_a_file_are_its_cameras_path_alone),
         cmocka_unit_test(what_is_chosen_from_in_a_domain_is_not_what_is_chosen),
     };
     return cmocka_run_group_tests(tests, quiet_start, NULL);

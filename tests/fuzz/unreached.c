@@ -44,3 +44,12 @@ tc_status tc_mesh_write_vtu(const tc_mesh *mesh, const char *path, tc_error *err
     (void)mesh, (void)path, (void)err;
     return TC_E_ARG;
 }
+
+tc_status tc_render(tc_image **out, tc_render_stats *stats, tc_renderer *renderer, const tc_mesh *mesh,
+                    const tc_transfer *tf, const tc_camera *camera, const tc_render_options *options, const tc_log *log,
+                    tc_error *err)
+{
+    (void)stats, (void)renderer, (void)mesh, (void)tf, (void)camera, (void)options, (void)log, (void)err;
+    *out = NULL;
+    return TC_E_ARG;
+}

@@ -194,18 +194,29 @@ static void tc_options_note(tc_pv_build *b, const tc_pv_proxy *r)
         tc_paraview_note(b->notes, "the choice of blocks is left out: all are shown (--blocks)");
 }
 
-/* How a volume's ray is put together: composite, maximum, minimum, average, additive, isosurface, slice. */
+/* How a volume's ray is put together. */
 static void tc_blend_put(tc_pv_build *b, const tc_pv_proxy *r)
 {
-    static const char *const mode[] = {"composite", "maximum", "minimum", "average", "additive", "isosurface", "slice"};
-    double value;
+    static const struct {
+        const char *name, *model;
+    } mode[] = {{"composite", "density-emitter"},
+                {"maximum", "mip"},
+                {"minimum", "minip"},
+                {"average", "average"},
+                {"additive", NULL},
+                {"isosurface", NULL},
+                {"slice", NULL}};
+    double value = 0;
     if (!tc_pv_reals(&value, 1, b->pv, r, "BlendMode") || value == 0)
         return;
-    if (value == 1)
-        tc_pv_put(b, "effects", "model", json_string("mip"));
-    else
-        tc_paraview_note(b->notes, "the blend mode %s is left out (--model)",
-                         value > 0 && value < 7 ? mode[(int)value] : "of the volume");
+    const size_t i = value > 0 && value < sizeof mode / sizeof *mode ? (size_t)value : 0;
+    if (mode[i].model && i > 0) {
+        tc_pv_put(b, "effects", "model", json_string(mode[i].model));
+        tc_paraview_note(b->notes, "the opacity of the blend mode %s is left out: the model %s is opaque", mode[i].name,
+                         mode[i].model);
+    } else {
+        tc_paraview_note(b->notes, "the blend mode %s is left out (--model)", i > 0 ? mode[i].name : "of the volume");
+    }
 }
 
 /* The array that colours it: {"", "", "", association, name}; before 4.2 {name} and ColorAttributeType. */
