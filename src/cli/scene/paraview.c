@@ -94,3 +94,14 @@ int tc_paraview_options(tc_scene *out, const char *path, bool wants_data, bool s
     tc_paraview_notes_finish(&notes);
     return code;
 }
+
+int tc_paraview_views(json_t **views, const char *path, tc_talk *talk)
+{
+    json_t *json;
+    tc_paraview_notes notes;
+    const int code = tc_paraview_read(&json, &notes, path, false, talk);
+    *views = json_incref(json_object_get(json, "views"));
+    json_decref(json);
+    tc_paraview_notes_finish(&notes);
+    return code;
+}

@@ -32,6 +32,10 @@ int tc_paraview_scene(json_t **scene, tc_paraview_notes *notes, const tc_pv *pv,
 int tc_paraview_options(tc_scene *out, const char *path, bool wants_data, bool silent, const tc_command *command,
                         tc_talk *talk);
 
+/* What the scene of a file has under "views", a new reference; *views NULL: its camera does not move. Notes are not printed.
+ * The same codes. */
+int tc_paraview_views(json_t **views, const char *path, tc_talk *talk);
+
 /* One more; drops it when memory is out. */
 void tc_paraview_note(tc_paraview_notes *notes, const char *format, ...) TC_CLI_PRINTF(2, 3);
 /* Prints them as warnings, a line each. */

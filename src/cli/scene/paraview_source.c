@@ -125,10 +125,15 @@ static int tc_data_put(tc_pv_build *b, const tc_pv_proxy *reader, const char *fi
     return -1;
 }
 
-/* Blocks that a reader leaves away: pairs of a name and 0 or 1. */
-static void tc_blocks_note(tc_pv_build *b, const tc_pv_proxy *reader)
+/* What a reader does otherwise: blocks that it leaves away, pairs of a name and 0 or 1; displacements. */
+static void tc_reader_note(tc_pv_build *b, const tc_pv_proxy *reader)
 {
     const tc_pv *pv = b->pv;
+    double magnitude = 1;
+    if (tc_pv_values(pv, reader, "ApplyDisplacements") > 0 && !tc_pv_is_on(pv, reader, "ApplyDisplacements"))
+        tc_paraview_note(b->notes, "the mesh is not displaced there and is here");
+    else if (tc_pv_reals(&magnitude, 1, pv, reader, "DisplacementMagnitude") && magnitude != 1)
+        tc_paraview_note(b->notes, "displacements are %g times as large there", magnitude);
     for (size_t i = 0; i < reader->n; i++) {
         const tc_pv_property *p = &pv->property[reader->first + i];
         const char *name = pv->text + p->name;
@@ -152,7 +157,7 @@ int tc_pv_source(tc_pv_build *b, const tc_pv_proxy *representation, const tc_pv_
     const bool timed = tc_time_find(&time, pv, view);
     size_t chosen = 0;
     if (reader)
-        tc_blocks_note(b, reader);
+        tc_reader_note(b, reader);
     if (files && files->n > 1) {
         chosen = tc_series_find(pv, reader, files->n, time);
         if (b->wants_data)
