@@ -1,0 +1,158 @@
+#!/usr/bin/python3
+"""The loop that a batch replaces, in VTK's Python: every step of a dataset, from some views, with some functions, as PNG files.
+
+  xvfb-run -a /usr/bin/python3 batch_vtk.py SCENE.json FOLDER [--mapper bunyk|projected] [--limit N]
+
+SCENE.json is a scene of tetcast batch: data (a file, or a list of files), field, views {"phi": N, "theta": [..]}, a list of
+transfer functions {"color_map": "Cool to Warm" or "grey", "opacity": "S:A,S:A"}, output {"size": "WxH"}; ranges are fixed in it.
+The mesh is split into tetrahedra once while it stays the same; mapper, window and functions are kept. Prints one JSON line:
+{"frames": N, "seconds": S, "first": seconds to the first picture}. Needs python3-vtk9 and an X display.
+"""
+
+import argparse
+import json
+import math
+import os
+import sys
+import time
+
+sys.dont_write_bytecode = True
+
+MAPS = {"Cool to Warm": [(0, 0.231373, 0.298039, 0.752941), (0.5, 0.865003, 0.865003, 0.865003), (1, 0.705882, 0.0156863, 0.14902)],
+        "X Ray": [(0, 1, 1, 1), (1, 0, 0, 0)]}
+
+
+def reader_of(vtk, path):
+    if path.endswith((".e", ".ex2")):
+        reader = vtk.vtkExodusIIReader()
+        reader.SetFileName(path)
+        reader.UpdateInformation()
+        for i in range(reader.GetNumberOfPointResultArrays()):
+            reader.SetPointResultArrayStatus(reader.GetPointResultArrayName(i), 1)
+        return reader
+    reader = vtk.vtkHDFReader() if path.endswith(".hdf") else vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.UpdateInformation()
+    return reader
+
+
+def steps(vtk, data):
+    """Gives a grid for each step; of a file of several steps the reader is kept."""
+    for path in data if isinstance(data, list) else [data]:
+        reader = reader_of(vtk, path)
+        information = reader.GetOutputInformation(0)
+        times = information.Get(vtk.vtkStreamingDemandDrivenPipeline.TIME_STEPS()) or [None]
+        for t in times:
+            if t is not None:
+                reader.UpdateTimeStep(t)
+            else:
+                reader.Update()
+            output = reader.GetOutputDataObject(0)
+            if output.IsA("vtkMultiBlockDataSet"):
+                append = vtk.vtkAppendFilter()
+                append.MergePointsOn()
+                leaves = output.NewIterator()
+                leaves.InitTraversal()
+                while not leaves.IsDoneWithTraversal():
+                    if leaves.GetCurrentDataObject().GetNumberOfCells():
+                        append.AddInputData(leaves.GetCurrentDataObject())
+                    leaves.GoToNextItem()
+                append.Update()
+                output = append.GetOutput()
+            yield output
+
+
+def functions(vtk, scene):
+    made = []
+    for f in scene["transfer_function"]:
+        lo, hi = f["range"]
+        color, opacity = vtk.vtkColorTransferFunction(), vtk.vtkPiecewiseFunction()
+        if f["color_map"] == "Cool to Warm":
+            color.SetColorSpaceToDiverging()
+        for x, r, g, b in MAPS[f["color_map"]]:
+            color.AddRGBPoint(lo + (hi - lo) * x, r, g, b)
+        for knot in f["opacity"].split(","):
+            s, a = knot.split(":")
+            opacity.AddPoint(float(s), float(a))
+        made.append((f["name"], color, opacity))
+    return made
+
+
+def finish(done, start, first):
+    print(json.dumps({"frames": done, "seconds": time.monotonic() - start, "first": first or math.nan}))
+    sys.stdout.flush()
+    os._exit(0)  # VTK's window needs long to go
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("scene")
+    parser.add_argument("folder")
+    parser.add_argument("--mapper", choices=["bunyk", "projected"], default="bunyk")
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--limit", type=int, default=0)
+    options = parser.parse_args()
+    start = time.monotonic()
+    import vtk
+    with open(options.scene, encoding="utf-8") as file:
+        scene = json.load(file)
+    width, height = (int(n) for n in scene["output"]["size"].split("x"))
+    renderer, window, volume = vtk.vtkRenderer(), vtk.vtkRenderWindow(), vtk.vtkVolume()
+    if options.mapper == "bunyk":
+        mapper = vtk.vtkUnstructuredGridVolumeRayCastMapper()
+        mapper.SetNumberOfThreads(options.threads)
+        mapper.SetRayIntegrator(vtk.vtkUnstructuredGridPreIntegration())
+    else:
+        mapper = vtk.vtkProjectedTetrahedraMapper()
+    volume.SetMapper(mapper)
+    volume.GetProperty().SetInterpolationTypeToLinear()
+    renderer.AddVolume(volume)
+    renderer.SetBackground(*scene["output"].get("background", [0, 0, 0])[:3])
+    window.AddRenderer(renderer)
+    window.SetSize(width, height)
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    looks = functions(vtk, scene)
+    shot, writer = vtk.vtkWindowToImageFilter(), vtk.vtkPNGWriter()
+    shot.SetInput(window)
+    shot.ReadFrontBufferOff()
+    shot.ShouldRerenderOff()
+    writer.SetInputConnection(shot.GetOutputPort())
+    split, done, first, home = vtk.vtkDataSetTriangleFilter(), 0, None, None
+    for number, grid in enumerate(steps(vtk, scene["data"])):
+        grid.GetPointData().SetActiveScalars(scene["field"])
+        split.SetInputData(grid)
+        split.TetrahedraOnlyOn()
+        split.Update()
+        kept = split.GetOutput()
+        kept.GetPointData().SetActiveScalars(scene["field"])
+        mapper.SetInputData(kept)
+        if home is None:
+            volume.GetProperty().SetScalarOpacityUnitDistance(grid.GetLength() / grid.GetNumberOfCells() ** (1 / 3))
+            renderer.ResetCamera()
+            home = vtk.vtkCamera()
+            home.DeepCopy(renderer.GetActiveCamera())
+        for name, color, opacity in looks:
+            volume.GetProperty().SetColor(color)
+            volume.GetProperty().SetScalarOpacity(opacity)
+            for view in range(scene["views"]["phi"]):
+                for theta in scene["views"]["theta"]:
+                    phi = 360 * view / scene["views"]["phi"]
+                    camera = renderer.GetActiveCamera()
+                    camera.DeepCopy(home)
+                    camera.Azimuth(phi)
+                    camera.Elevation(theta)
+                    renderer.ResetCameraClippingRange()
+                    window.Render()
+                    shot.Modified()
+                    writer.SetFileName(os.path.join(options.folder, f"{number:03d}_{phi:g}_{theta:g}_{name}.png"))
+                    writer.Write()
+                    done += 1
+                    first = first or time.monotonic() - start
+                    if done == options.limit:
+                        finish(done, start, first)
+    finish(done, start, first)
+
+
+if __name__ == "__main__":
+    main()
