@@ -53,6 +53,10 @@ typedef struct tc_figure {
  * drawn), TC_E_MEMORY. Cost: O(pixels that are drawn), some ms. Thread-safe. */
 TC_API tc_status tc_figure_draw(tc_image *image, const tc_figure *figure, const tc_log *log, tc_error *err);
 
+/* The ink that AUTO takes over a picture, its background included: DARK or LIGHT. For parts of one, that of a small picture of
+ * the whole does. */
+TC_API tc_ink tc_figure_ink(const tc_image *image);
+
 /* Moves camera, without turning it, so that a box [6] is in the middle of what title and colour bar of the figure leave of a
  * picture of that size, with room for labels where the figure has axes; where these leave less than a third of its width or height, camera stays as
  * it is. figure->camera and bounds are not looked at.

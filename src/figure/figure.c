@@ -71,6 +71,11 @@ static bool is_dark(const tc_image *image)
     return n > 0 && sum < 0.5 * (double)n;
 }
 
+tc_ink tc_figure_ink(const tc_image *image)
+{
+    return is_dark(image) ? TC_INK_LIGHT : TC_INK_DARK;
+}
+
 /* Does the image lie within the picture that it is a part of? */
 static tc_status check_part(const tc_image *image, const tc_figure *f, tc_error *err)
 {

@@ -56,7 +56,10 @@ for case in \
     "each from 2 to 1024|render a --table-size 1,128,256" \
     "--table-size takes|render a --table-size 128,128" \
     "from 2 to 1024|render a --table-size 2048,2,2" \
-    "268435456 pixels in all|render a --size 32768x32768" \
+    "--verify needs the picture at once|render a --size 32768x32768 --verify 10" \
+    "each from 1 to 32768|render a --size 40000x2" \
+    "--stereo makes two|render a --stereo anaglyph --verify 10" \
+    "40000x10 pixels|render a --stereo side-by-side --size 20000x10" \
     "are one file|render a -o a.png --stats a.png" \
     "would be written over|render a --stats a" \
     "at most 1|render a --opacity-stop 1.5" \

@@ -9,6 +9,8 @@ typedef struct tc_output_options {
     int jpeg_quality; /* 0: the default */
     int bits;         /* 0: the format's default */
     bool depth, value;
+    int stereo;       /* tc_stereo, stereo_options.h */
+    double eye_angle; /* degrees */
 } tc_output_options;
 
 /* Rows for a command's table whose struct has a tc_output_options named `member`. */
@@ -23,9 +25,13 @@ typedef struct tc_output_options {
      TC_OUTPUT_AT(type, member, bits), .choice = tc_bits_choice},                                                      \
     {"--depth", 0, NULL, "also the depth at which a ray has gathered an opacity of 1/2, along the view in the mesh's unit: exr gets a channel Z, others NAME_depth.exr beside them", TC_OPTION_FLAG, \
      TC_OUTPUT_AT(type, member, depth)},                                                                               \
-    {"--value", 0, NULL, "also the scalar at that depth, in NAME_value.exr", TC_OPTION_FLAG, TC_OUTPUT_AT(type, member, value)}
+    {"--value", 0, NULL, "also the scalar at that depth, in NAME_value.exr", TC_OPTION_FLAG, TC_OUTPUT_AT(type, member, value)}, \
+    {"--stereo", 0, "none|pair|side-by-side|top-bottom|anaglyph", "for two eyes: NAME_left and NAME_right ({eye} in a name); one picture of twice the width or height; or red for the left, cyan for the right eye", TC_OPTION_CHOICE, \
+     TC_OUTPUT_AT(type, member, stereo), .choice = tc_stereo_choice},                                                  \
+    {"--eye-angle", 0, "DEG", "between the eyes, as seen from the focal point; default 2", TC_OPTION_REAL,             \
+     TC_OUTPUT_AT(type, member, eye_angle), .low = 0, .high = 90, .open = true}
 /* clang-format on */
-extern const tc_choice tc_bits_choice[];
+extern const tc_choice tc_bits_choice[], tc_stereo_choice[];
 
 /* What is asked for, for a file of this name; depth NULL. */
 tc_image_encoding tc_output_encoding(const tc_output_options *options, const char *path);

@@ -27,6 +27,7 @@ bool tc_render_figure(tc_figure *out, const tc_render_run *run)
         tc_field_info(NULL, NULL, &name, parts->look.color_field);
     *out = (tc_figure){
         .title = o->title,
+        .ink = run->ink,
         .text_size = o->text_size,
         .bar = o->color_bar && !tc_bar_untrue(&parts->look) ? (tc_bar)place : TC_BAR_NONE,
         .function = second ? parts->color_function : run->tf,

@@ -70,6 +70,8 @@ static char *tc_camera_text(const tc_camera *camera)
     const double clip[2] = {camera->clip_near, camera->clip_far};
     if (camera->clip_far > 0)
         json_object_set_new(json, "clipping_range", tc_json_reals(clip, 2));
+    if (camera->window_center[0] != 0 || camera->window_center[1] != 0)
+        json_object_set_new(json, "window_center", tc_json_reals(camera->window_center, 2));
     return tc_compact(json);
 }
 

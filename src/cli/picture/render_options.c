@@ -1,6 +1,8 @@
 /* render_options.c: the options of `render` as one table, and the checks that need no mesh. */
 #include "cli/picture/render_options.h"
 #include "cli/commands.h"
+#include "cli/picture/bands_size.h"
+#include "cli/picture/stereo_options.h"
 #include "cli/json_out.h"
 #include "cli/picture/numbers.h"
 #include "cli/scene/paraview.h"
@@ -12,7 +14,7 @@
 #include <sys/stat.h>
 
 #define TC_SIZE_MAX 32768
-#define TC_PIXELS_MAX (1 << 28)
+#define TC_PIXELS_MAX (1 << 30)
 #define AT(member) .at = offsetof(tc_render_command, member)
 #define HAS(member) .has = offsetof(tc_render_command, member) + 1
 
@@ -181,7 +183,7 @@ const tc_option tc_render_option[TC_N_RENDER_OPTION] = {
     {"--paraview", 0, "FILE", "camera, field, transfer function, size and background from a ParaView state (.pvsm), or a camera file (.pvcc); other options stand before it", TC_OPTION_TEXT, AT(paraview)},
     {.help = "Picture"},
     {"--output", 'o', "FILE", "png, exr, tif or jpg by extension; - for PNG on stdout; default INPUT's name + .png, here; several steps: {step:04d} or {time:.3f} in it, else _0012 before the extension", TC_OPTION_TEXT, AT(output)},
-    {"--size", 0, "WxH", "pixels; default 512x512", TC_OPTION_CUSTOM, AT(size), .parse = tc_size_parse},
+    {"--size", 0, "WxH", "pixels, up to 32768x32768; default 512x512", TC_OPTION_CUSTOM, AT(size), .parse = tc_size_parse},
     {"--background", 0, "R,G,B[,A]|transparent", "0 to 1 each; default transparent", TC_OPTION_CUSTOM, AT(background), .parse = tc_background_parse},
     TC_OUTPUT_ROWS(tc_render_command, out),
     {.help = "Camera (default: the whole mesh in view from +z)"},
@@ -196,6 +198,7 @@ const tc_option tc_render_option[TC_N_RENDER_OPTION] = {
     {"--roll", 0, "DEG", "then turn about the view direction", TC_OPTION_REAL, AT(roll)},
     {"--zoom", 0, "F", "then divide the view angle or scale; default 1", TC_OPTION_REAL, AT(zoom), .low = 0, .high = 1e300, .open = true},
     {"--clipping-range", 0, "NEAR,FAR", "show only what lies between these distances from the eye, along the view", TC_OPTION_REALS, AT(clipping_range), HAS(has_clipping_range), .n = 2},
+    {"--window-center", 0, "X,Y", "show in the middle what is so many half widths right of and half heights above where it looks; default 0,0", TC_OPTION_REALS, AT(window_center), .n = 2},
     {.help = "Transfer function"},
     {"--color-map", 0, "NAME|FILE", "a built-in map, a ParaView preset (.json, .xml), or the text of one; default Cool to Warm", TC_OPTION_TEXT, AT(color_map)},
     {"--preset", 0, "NAME", "which map of a file that holds several; default the first", TC_OPTION_TEXT, AT(preset)},
@@ -459,7 +462,10 @@ static int tc_render_check(const tc_render_command *out, tc_talk *talk)
     if (out->preset && !out->color_map)
         return tc_given_refuse(given, talk, "--preset", NULL,
                                "--preset names a map of a file: give the file with --color-map");
-    return tc_look_options_check(&out->look, &out->given, talk);
+    code = tc_stereo_check(out, talk);
+    if (code < 0)
+        code = tc_bands_check(out, talk);
+    return code < 0 ? tc_look_options_check(&out->look, &out->given, talk) : code;
 }
 
 /* --------------------------------------------------------------------------------------------------------- scenes */
@@ -470,7 +476,7 @@ static void tc_render_command_defaults(tc_render_command *out)
     tc_render_defaults(&defaults);
     *out = (tc_render_command){
         .size = {512, 512},
-        .out = {.png_level = -1},
+        .out = {.png_level = -1, .eye_angle = 2},
         .view_up = {0, 1, 0},
         .view_angle = 30,
         .zoom = 1,

@@ -41,6 +41,7 @@ typedef struct tc_render_command {
     double azimuth, elevation, roll, zoom;
     double clipping_range[2];
     bool has_clipping_range;
+    double window_center[2];
 
     const char *color_map, *preset, *opacity;
     double range[2];
@@ -81,7 +82,7 @@ bool tc_choice_asked(const tc_render_command *options);
 
 /* The options of everything that makes a picture: with tc_look_option behind them they are those of a command whose struct
  * is a tc_render_command, as tc_command_render is. */
-enum { TC_N_RENDER_OPTION = 70 };
+enum { TC_N_RENDER_OPTION = 73 };
 extern const tc_option tc_render_option[TC_N_RENDER_OPTION];
 
 /* Defaults, parsing, the scene file where INPUT is one, checks that need no mesh. -1 to go on, else the exit code. Whatever

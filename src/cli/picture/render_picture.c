@@ -1,11 +1,14 @@
 /* render_picture.c: from a prepared mesh to one picture in a file. */
 #include "cli/picture/render_picture.h"
+#include "cli/picture/bands.h"
+#include "cli/picture/bands_size.h"
 #include "cli/picture/look_build.h"
 #include "cli/picture/numbers.h"
 #include "cli/picture/render_choose.h"
 #include "cli/picture/render_verify.h"
 #include "cli/picture/render_view.h"
 #include "cli/picture/render_write.h"
+#include "cli/picture/stereo.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +34,7 @@ int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *ta
     out->readback = out->march + n;
     if (tc_input_is_synthetic(options->input) || access(options->input, R_OK) == 0) {
         tc_renderer_begin(&out->start, &out->make, NULL); /* what fails here is done, and told, when it is needed */
-        if (tc_image_writer_create(&out->writer, NULL) == TC_OK)
+        if (!tc_bands_asked(options) && tc_image_writer_create(&out->writer, NULL) == TC_OK)
             tc_image_writer_expect(out->writer, options->output, NULL);
     }
     return -1;
@@ -152,12 +155,21 @@ static const char *tc_look_empty_reason(const tc_look *look)
     return NULL;
 }
 
+double tc_picture_peak(const tc_render_run *run, const tc_image *image)
+{
+    const tc_look *look = run->render.look;
+    return look && look->model == TC_MODEL_EMISSION ? tc_image_light(image) : (double)tc_image_peak(image);
+}
+
 bool tc_picture_is_empty(char *why, size_t capacity, const tc_render_run *run)
+{
+    return tc_peak_is_empty(why, capacity, run, tc_picture_peak(run, run->image));
+}
+
+bool tc_peak_is_empty(char *why, size_t capacity, const tc_render_run *run, double peak)
 {
     char reason[512];
     const tc_look *look = run->render.look;
-    const double peak =
-        look && look->model == TC_MODEL_EMISSION ? tc_image_light(run->image) : (double)tc_image_peak(run->image);
     *why = 0;
     if (peak >= TC_VISIBLE)
         return false;
@@ -177,18 +189,30 @@ bool tc_picture_is_empty(char *why, size_t capacity, const tc_render_run *run)
     return true;
 }
 
+/* What was written, in words. */
+static void tc_written(char *out, size_t capacity, const tc_render_command *options)
+{
+    char name[2][2048];
+    snprintf(out, capacity, "%s", strcmp(options->output, "-") ? options->output : "stdout");
+    if (options->out.stereo == TC_STEREO_PAIR && tc_stereo_name(name[0], sizeof name[0], options->output, 0) &&
+        tc_stereo_name(name[1], sizeof name[1], options->output, 1))
+        snprintf(out, capacity, "%s and %s", name[0], name[1]);
+}
+
 static void tc_render_summary(const tc_render_run *run, tc_talk *talk)
 {
+    char written[4200];
     const tc_render_stats *stats = &run->first;
     char frame[48] = "";
     if (run->report.reentry == TC_REENTRY_PEEL && *run->report.reentry_why &&
         !talk->verbose) /* verbose: said already */
         tc_talk_say(talk, "rays cross the mesh's gaps by peeling: %s", run->report.reentry_why);
+    tc_written(written, sizeof written, run->options);
     if (isfinite(run->frame.median))
         snprintf(frame, sizeof frame, ", frame %.1f ms", run->frame.median);
     tc_talk_say(talk, "%zu tets, %zu imaginary; %s%s%s%s%s%s; wrote %s", run->report.n_tet, run->report.n_imaginary,
                 stats->context, *stats->context ? " " : "", stats->driver, *stats->integrator ? ", " : "",
-                stats->integrator, frame, strcmp(run->options->output, "-") ? run->options->output : "stdout");
+                stats->integrator, frame, written);
 }
 
 int tc_render_ready(tc_frames *frames, tc_talk *talk)
@@ -215,6 +239,10 @@ int tc_picture_render(tc_render_run *run, tc_frames *frames, tc_talk *talk)
 int tc_render_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
 {
     char why[640];
+    if (run->options->out.stereo != TC_STEREO_NONE)
+        return tc_stereo_picture(run, frames, talk, argc, argv);
+    if (tc_bands_asked(run->options))
+        return tc_bands_picture(run, frames, talk, argc, argv);
     int code = tc_picture_render(run, frames, talk);
     if (code < 0) {
         if (tc_picture_is_empty(why, sizeof why, run))

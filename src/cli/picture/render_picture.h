@@ -23,6 +23,11 @@ void tc_frames_finish(tc_frames *frames);
 int tc_render_ready(tc_frames *frames, tc_talk *talk);
 /* Renders run->image and verifies it. -1 to go on, else an exit code. */
 int tc_picture_render(tc_render_run *run, tc_frames *frames, tc_talk *talk);
+/* The largest opacity of an image, or of light alone its largest channel. */
+double tc_picture_peak(const tc_render_run *run, const tc_image *image);
+/* Is there nothing to be seen in a picture with that peak? why gets the sentence that says so, and why as far as it can be
+ * told. */
+bool tc_peak_is_empty(char *why, size_t capacity, const tc_render_run *run, double peak);
 /* Is there nothing to be seen in run->image? why gets the sentence that says so, and why as far as it can be told. */
 bool tc_picture_is_empty(char *why, size_t capacity, const tc_render_run *run);
 /* tc_picture_render, and writes the picture and the image of errors. The same codes; run->measured says whether there are

@@ -38,6 +38,7 @@ typedef struct tc_render_run {
     tc_image *errors; /* of tc_verify_image; NULL without --error-image */
     tc_error lost; /* rays that the stepper "planes" lost: said at the end; code TC_OK where there are none */
     bool measured; /* there are numbers for --stats */
+    tc_ink ink;    /* of title, bar and axes; AUTO: measured in the picture */
     bool broken;   /* the audit found cells in which other than two faces held the ray: said at the end, too */
 } tc_render_run;
 

@@ -39,6 +39,7 @@ int tc_render_camera(tc_camera *out, const tc_render_command *options, const dou
         tc_camera_zoom(out, options->zoom);
     out->clip_near = options->has_clipping_range ? options->clipping_range[0] : 0;
     out->clip_far = options->has_clipping_range ? options->clipping_range[1] : 0;
+    memcpy(out->window_center, options->window_center, sizeof out->window_center);
     return -1;
 }
 
@@ -109,6 +110,7 @@ static void tc_box_in_view(double depth[2], bool *aside, const double bounds[6],
     tc_cross(up, right, ahead);
     double half = camera->parallel ? camera->parallel_scale : tan(camera->view_angle * acos(-1.0) / 360);
     double wide = half * size->width / size->height;
+    const double *center = camera->window_center;
     depth[0] = INFINITY;
     depth[1] = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
@@ -118,10 +120,10 @@ static void tc_box_in_view(double depth[2], bool *aside, const double bounds[6],
         double z = tc_dot(x, ahead), h = camera->parallel ? 1 : z;
         depth[0] = fmin(depth[0], z);
         depth[1] = fmax(depth[1], z);
-        beyond[0] += tc_dot(x, right) > wide * h;
-        beyond[1] += tc_dot(x, right) < -wide * h;
-        beyond[2] += tc_dot(x, up) > half * h;
-        beyond[3] += tc_dot(x, up) < -half * h;
+        beyond[0] += tc_dot(x, right) > (center[0] + 1) * wide * h;
+        beyond[1] += tc_dot(x, right) < (center[0] - 1) * wide * h;
+        beyond[2] += tc_dot(x, up) > (center[1] + 1) * half * h;
+        beyond[3] += tc_dot(x, up) < (center[1] - 1) * half * h;
     }
     *aside = beyond[0] == 8 || beyond[1] == 8 || beyond[2] == 8 || beyond[3] == 8;
 }

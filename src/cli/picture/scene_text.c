@@ -4,6 +4,7 @@
 #define _GNU_SOURCE
 #include "cli/picture/look_build.h"
 #include "cli/picture/render_choose.h"
+#include "cli/picture/stereo_options.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -108,7 +109,8 @@ static bool tc_is_found(const tc_render_run *run, const tc_scene_key *key)
 {
     static const char *const found[] = {"--field", "--cell-data", "--point-data",    "--time",
                                         "--step",  "--reentry",   "--range",         "--driver",
-                                        "--gl",    "--size",      "--unit-distance", "--color-range"};
+                                        "--gl",    "--size",      "--unit-distance", "--color-range",
+                                        "--stereo", "--eye-angle"};
     static const char *const chosen[] = {"--integrator", "--integral-order", "--integral-split", "--opacity-stop"};
     if (!strcmp(key->section, "camera"))
         return true;
@@ -173,6 +175,8 @@ static void tc_camera_put(json_t *scene, const tc_camera *camera)
         tc_put(scene, "camera", "parallel_scale", tc_number(camera->parallel_scale));
     if (camera->clip_far > 0)
         tc_put(scene, "camera", "clipping_range", tc_numbers(clip, 2));
+    if (camera->window_center[0] != 0 || camera->window_center[1] != 0)
+        tc_put(scene, "camera", "window_center", tc_numbers(camera->window_center, 2));
 }
 
 static void tc_function_put(json_t *scene, const tc_render_run *run)
@@ -218,6 +222,10 @@ static void tc_method_put(json_t *scene, const tc_render_run *run)
     if (*run->first.context)
         tc_put(scene, "method", "gl", json_string(run->first.context));
     tc_put(scene, "output", "size", tc_numbers(size, 2));
+    if (run->options->out.stereo > TC_STEREO_PAIR) { /* a picture of a pair is one of its eye's camera */
+        tc_put(scene, "output", "stereo", json_string(tc_stereo_choice[run->options->out.stereo].name));
+        tc_put(scene, "output", "eye_angle", tc_number(run->options->out.eye_angle));
+    }
 }
 
 char *tc_scene_text(const tc_render_run *run)

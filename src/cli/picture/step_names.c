@@ -177,6 +177,9 @@ bool tc_step_name(char *out, size_t capacity, const char *pattern, int step, dou
         if ((at[0] == '{' || at[0] == '}') && at[1] == at[0]) {
             tc_put(&name, at, 1);
             at += 2;
+        } else if (!strncmp(at, "{eye}", 5)) { /* stereo_options.h */
+            tc_put(&name, at, 5);
+            at += 5;
         } else if (*at == '{') {
             const char *from = at;
             if (!tc_field_put(&name, &at, step, time)) {
