@@ -33,7 +33,7 @@ def spied(name, action):
 
 class Copies(unittest.TestCase):
     def test_arrays_of_the_right_type_are_copied_in_python(self):
-        points, cells = cube(50)
+        points, cells = cube(40)
         scalars = points[:, 0].copy()
         for array in (points, cells, scalars):
             array.flags.writeable = False
@@ -122,7 +122,7 @@ class Lifetime(unittest.TestCase):
         before = resident()
         for i in range(100):  # 4 MiB each, each with a function of its own
             tetcast.render(mesh, opacity=[0, 1 + i])
-        self.assertLess(resident() - before, 40 << 20)
+        self.assertLess(resident() - before, 30 << 20)
 
     def test_memory_grows_with_the_number_of_meshes_and_values(self):
         points, cells = cube(20)
@@ -136,9 +136,9 @@ class Lifetime(unittest.TestCase):
         for _ in range(5):
             one()
         before = resident()
-        for _ in range(40):  # 48 000 tetrahedra each, some 3 MB
+        for _ in range(25):  # 48 000 tetrahedra each, some 3 MB
             one()
-        self.assertLess(resident() - before, 40 << 20)
+        self.assertLess(resident() - before, 30 << 20)
 
 
 class Refused(unittest.TestCase):
