@@ -102,6 +102,16 @@ done
 run 0 render left_out.pvsm --field Temp --point-data --range 0.1,10 --driver reference -o left_out.png --quiet
 stderr_empty
 
+# A batch of the state: all files of its series, along the camera's path.
+mkdir many
+run 0 batch left_out.pvsm --field Temp --point-data --range 0.1,10 --driver reference -o "many/{step}_{view}.png" --quiet
+[ "$(ls many)" = "$(printf '0_0001.png\n1_0002.png\n2_0003.png')" ] || fail "the batch made $(ls many)"
+"$TC_PIXELS" many/0_0001.png tetcast:scene | grep -q '"position":\[4,3,8\]' || fail "the path does not begin at its first key"
+"$TC_PIXELS" many/2_0003.png tetcast:scene | grep -q '"position":\[8,3,4\]' || fail "the path does not end at its last key"
+"$TC_PIXELS" many/2_0003.png tetcast:scene | grep -q 'data/c.vtu' || fail "the last step is not of the last file"
+run 0 batch disk.vtu --paraview volume.pvsm --driver reference -o many/one.png --quiet
+same_pixels volume.png many/one.png
+
 # Files that are none: a sentence with the line.
 refused() { # refused NAME SENTENCE
     run 1 render "$1" $small

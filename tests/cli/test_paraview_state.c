@@ -428,15 +428,15 @@ static void views_of_a_file_are_its_cameras_path_alone(void **state)
     text_parts part = plain;
     json_t *views;
     file_write(path, &part);
-    assert_int_equal(tc_paraview_views(&views, path, &talk), -1);
+    assert_int_equal(tc_paraview_many(NULL, &views, path, &talk), -1);
     assert_null(views);
     part.more = CUE("0", TO("21") TO("22")) KEY("21", "0", "") KEY("22", "1", "");
     file_write(path, &part);
-    assert_int_equal(tc_paraview_views(&views, path, &talk), -1);
+    assert_int_equal(tc_paraview_many(NULL, &views, path, &talk), -1);
     assert_int_equal(json_array_size(json_object_get(views, "path")), 2);
     json_decref(views);
     assert_int_equal(unlink(path), 0);
-    assert_int_equal(tc_paraview_views(&views, path, &talk), TC_EXIT_FAILED);
+    assert_int_equal(tc_paraview_many(NULL, &views, path, &talk), TC_EXIT_FAILED);
     assert_null(views);
 }
 

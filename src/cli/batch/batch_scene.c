@@ -3,6 +3,7 @@
 #define _GNU_SOURCE
 #include "cli/batch/batch_scene.h"
 #include "cli/commands.h"
+#include "cli/scene/paraview.h"
 #include "cli/scene/scene_lines.h"
 
 #include <limits.h>
@@ -24,7 +25,7 @@ static int tc_refuse(const tc_batch_scene *s, const char *key, tc_talk *talk, co
     return TC_EXIT_FAILED;
 }
 
-/* The scene as JSON: of the file, or of a dataset alone. */
+/* The scene as JSON: of the file, or of a dataset or a ParaView state alone. */
 static int tc_json_take(tc_batch_scene *out, const char *input, tc_talk *talk)
 {
     if (tc_input_is_scene(input)) {
@@ -34,9 +35,37 @@ static int tc_json_take(tc_batch_scene *out, const char *input, tc_talk *talk)
         return tc_scene_load(&out->json, &out->text, input, talk);
     }
     out->json = json_object();
-    json_object_set_new(out->json, "data", json_string(input));
+    json_t *data = NULL, *views = NULL;
+    if (tc_input_is_paraview(input)) {
+        const int code = tc_paraview_many(&data, &views, input, talk);
+        json_decref(views);
+        if (code >= 0)
+            return code;
+        json_object_set_new(out->json, "paraview", json_string(input));
+    }
+    json_object_set_new(out->json, "data", data ? data : json_string(input));
     out->text = json_dumps(out->json, JSON_COMPACT);
-    return out->text && json_object_size(out->json) == 1 ? -1 : tc_no_memory(talk);
+    return out->text && json_object_get(out->json, "data") ? -1 : tc_no_memory(talk);
+}
+
+/* Where the scene has no views, the path of the camera of the ParaView state that lies under it: the command line's, else
+ * the scene's own. */
+static int tc_state_views_take(tc_batch_scene *out, const char *state, tc_talk *talk)
+{
+    const char *own = json_string_value(json_object_get(out->json, "paraview"));
+    char *led = NULL;
+    json_t *views = NULL;
+    int code = -1;
+    if (json_object_get(out->json, "views") || (!state && !own))
+        return -1;
+    if (asprintf(&led, "%s%s%s", state || *own == '/' || !out->folder ? "" : out->folder,
+                 state || *own == '/' || !out->folder ? "" : "/", state ? state : own) < 0)
+        return tc_no_memory(talk);
+    code = tc_paraview_many(NULL, &views, led, talk);
+    if (views)
+        json_object_set_new(out->json, "views", views);
+    free(led);
+    return code;
 }
 
 /* A path that says the same from every folder; from malloc. */
@@ -158,22 +187,26 @@ static int tc_looks_take(tc_batch_scene *out, tc_talk *talk, int argc, char **ar
     return code;
 }
 
-/* The argument that is no option; whatever else is wrong with the command line is said, too. */
-static int tc_input_take(const char **input, tc_talk *talk, int argc, char **argv)
+/* The argument that is no option, and --paraview's, NULL: there is none; whatever else is wrong with the command line is
+ * said, too. */
+static int tc_input_take(const char **input, const char **state, tc_talk *talk, int argc, char **argv)
 {
     tc_batch_command line = {0};
     int n_argument, code = tc_options_parse(&line, input, &n_argument, talk, &tc_command_batch, argc, argv);
+    *state = line.picture.paraview;
     tc_batch_command_finish(&line);
     return code;
 }
 
 int tc_batch_scene_read(tc_batch_scene *out, tc_talk *talk, int argc, char **argv)
 {
-    const char *input;
+    const char *input, *state;
     *out = (tc_batch_scene){0};
-    int code = tc_input_take(&input, talk, argc, argv);
+    int code = tc_input_take(&input, &state, talk, argc, argv);
     if (code < 0)
         code = tc_json_take(out, input, talk);
+    if (code < 0)
+        code = tc_state_views_take(out, state, talk);
     if (code >= 0)
         return code;
     const json_t *data = json_object_get(out->json, "data"), *views = json_object_get(out->json, "views");
@@ -184,7 +217,8 @@ int tc_batch_scene_read(tc_batch_scene *out, tc_talk *talk, int argc, char **arg
     code = tc_series_make(&out->series, data, json_object_get(out->json, "times"), out->folder, talk);
     if (code < 0 && views) {
         char called[512];
-        snprintf(called, sizeof called, "%.400s:%d: views", out->path, tc_json_line(out->text, "", "views"));
+        snprintf(called, sizeof called, "%.400s:%d: views", out->path ? out->path : input,
+                 tc_json_line(out->text, "", "views"));
         code = tc_views_read(&out->views, views, called, talk);
     }
     if (code < 0)

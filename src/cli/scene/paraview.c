@@ -81,6 +81,7 @@ int tc_paraview_options(tc_scene *out, const char *path, bool wants_data, bool s
     tc_paraview_notes notes;
     *out = (tc_scene){0};
     int code = tc_paraview_read(&json, &notes, path, wants_data, talk);
+    json_object_del(json, "series");
     if (code < 0 && json_object_get(json, "views")) {
         json_object_del(json, "views");
         if (!tc_command_option(command, "--views"))
@@ -95,12 +96,16 @@ int tc_paraview_options(tc_scene *out, const char *path, bool wants_data, bool s
     return code;
 }
 
-int tc_paraview_views(json_t **views, const char *path, tc_talk *talk)
+int tc_paraview_many(json_t **data, json_t **views, const char *path, tc_talk *talk)
 {
     json_t *json;
     tc_paraview_notes notes;
-    const int code = tc_paraview_read(&json, &notes, path, false, talk);
+    const int code = tc_paraview_read(&json, &notes, path, data != NULL, talk);
     *views = json_incref(json_object_get(json, "views"));
+    if (data) {
+        json_t *series = json_object_get(json, "series");
+        *data = json_incref(json_array_size(series) > 1 ? series : json_object_get(json, "data"));
+    }
     json_decref(json);
     tc_paraview_notes_finish(&notes);
     return code;

@@ -16,7 +16,8 @@ typedef struct tc_paraview_notes {
 
 /* The scene of a file: "data" (with wants_data), "field", "point_data" or "cell_data", "time", "camera",
  * "transfer_function", "effects" (a maximum intensity projection), "output" (size, background), and, of an animated
- * camera, "views" ({"path": […], "along": "time"}, for many pictures).
+ * camera, "views" ({"path": […], "along": "time"}) and, with wants_data, of several files "series", all of them that are
+ * there: both for many pictures.
  *   scene      made by the call, the caller's
  *   notes      in any case to be ended by tc_paraview_notes_finish
  *   wants_data the file's data are the INPUT: the path leads from the current folder, and is there
@@ -32,9 +33,9 @@ int tc_paraview_scene(json_t **scene, tc_paraview_notes *notes, const tc_pv *pv,
 int tc_paraview_options(tc_scene *out, const char *path, bool wants_data, bool silent, const tc_command *command,
                         tc_talk *talk);
 
-/* What the scene of a file has under "views", a new reference; *views NULL: its camera does not move. Notes are not printed.
- * The same codes. */
-int tc_paraview_views(json_t **views, const char *path, tc_talk *talk);
+/* What many pictures are made of: *views, a new reference, NULL: its camera does not move; with data not NULL also *data,
+ * a text or, of several files, a list of them. Notes are not printed. The same codes. */
+int tc_paraview_many(json_t **data, json_t **views, const char *path, tc_talk *talk);
 
 /* One more; drops it when memory is out. */
 void tc_paraview_note(tc_paraview_notes *notes, const char *format, ...) TC_CLI_PRINTF(2, 3);

@@ -85,7 +85,7 @@ static size_t tc_series_find(const tc_pv *pv, const tc_pv_proxy *reader, size_t 
 
 /* The path of a file of the state's: as it is, from the state's folder where it is not absolute, or of its name beside
  * the state where it is not there. NULL: it is not there, or memory ran out. */
-static char *tc_data_find(tc_pv_build *b, const char *file)
+static char *tc_data_find(tc_pv_build *b, const char *file, bool silent)
 {
     const char *slash = strrchr(b->path, '/'), *name = strrchr(file, '/');
     const int length = slash ? (int)(slash - b->path) + 1 : 0;
@@ -98,7 +98,8 @@ static char *tc_data_find(tc_pv_build *b, const char *file)
     if (asprintf(&led, "%.*s%s", length, b->path, name ? name + 1 : file) < 0)
         return NULL;
     if (access(led, F_OK) == 0) {
-        tc_paraview_note(b->notes, "its data %.300s are not there: %.300s is taken", file, led);
+        if (!silent)
+            tc_paraview_note(b->notes, "its data %.300s are not there: %.300s is taken", file, led);
         return led;
     }
     free(led);
@@ -112,7 +113,7 @@ static int tc_data_put(tc_pv_build *b, const tc_pv_proxy *reader, const char *fi
                       b->path, reader ? tc_pv_name(b->pv, reader, "sources") : "nothing", b->path);
         return TC_EXIT_FAILED;
     }
-    char *data = tc_data_find(b, file);
+    char *data = tc_data_find(b, file, false);
     if (!data) {
         tc_talk_error(b->talk,
                       "%s shows %s, which is not there: give the data, tetcast render INPUT --paraview %s, or put them "
@@ -148,6 +149,19 @@ static void tc_reader_note(tc_pv_build *b, const tc_pv_proxy *reader)
     }
 }
 
+/* All files of a series, those that are there. */
+static void tc_series_put(tc_pv_build *b, const tc_pv_property *files)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < files->n; i++) {
+        char *data = tc_data_find(b, b->pv->text + b->pv->value[files->first + i], true);
+        if (data)
+            json_array_append_new(list, json_string(data));
+        free(data);
+    }
+    tc_pv_put(b, "", "series", list);
+}
+
 int tc_pv_source(tc_pv_build *b, const tc_pv_proxy *representation, const tc_pv_proxy *view)
 {
     const tc_pv *pv = b->pv;
@@ -160,9 +174,11 @@ int tc_pv_source(tc_pv_build *b, const tc_pv_proxy *representation, const tc_pv_
         tc_reader_note(b, reader);
     if (files && files->n > 1) {
         chosen = tc_series_find(pv, reader, files->n, time);
-        if (b->wants_data)
+        if (b->wants_data) {
+            tc_series_put(b, files);
             tc_paraview_note(b->notes, "of the series of %zu files the one at time %g is taken: %.300s", files->n, time,
                              pv->text + pv->value[files->first + chosen]);
+        }
     } else if (timed && tc_pv_values(pv, reader, "TimestepValues") > 1) {
         tc_pv_put(b, "", "time", json_real(time));
     }
