@@ -30,6 +30,12 @@ static void tc_line_clear(tc_talk *talk)
 
 static void tc_message_print(tc_talk *talk, const char *kind, const char *colour, const char *format, va_list list)
 {
+    char text[sizeof talk->last];
+    vsnprintf(text, sizeof text, format, list);
+    if (kind && !strcmp(kind, "error"))
+        memcpy(talk->last, text, sizeof text);
+    if (talk->muted)
+        return;
     tc_line_clear(talk);
     fputs("tetcast: ", stderr);
     if (kind) {
@@ -42,11 +48,7 @@ static void tc_message_print(tc_talk *talk, const char *kind, const char *colour
         fprintf(stderr, "%s: ", talk->about);
     if (talk->from && kind && !strcmp(kind, "error"))
         fprintf(stderr, "%s: ", talk->from);
-    char text[sizeof talk->last];
-    vsnprintf(text, sizeof text, format, list);
     fprintf(stderr, "%s\n", text);
-    if (kind && !strcmp(kind, "error"))
-        memcpy(talk->last, text, sizeof text);
 }
 
 #define TC_TALK_VARIADIC(kind, colour)                                                                                 \

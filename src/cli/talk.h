@@ -16,6 +16,7 @@ enum { TC_EXIT_DONE = 0, TC_EXIT_FAILED = 1, TC_EXIT_USAGE = 2 };
 
 typedef struct tc_talk {
     bool quiet, verbose;
+    bool muted;    /* nothing is printed; errors are kept in last all the same */
     bool terminal; /* stderr is one that understands escape codes */
     bool colour;
     bool line_open;   /* a progress line is on the screen */

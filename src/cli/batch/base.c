@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { TC_TRIED = 4 }; /* steps of a dataset whose first one cannot be read */
+
 tc_over tc_range_over(const tc_batch_command *look)
 {
     if (look->picture.has_range)
@@ -24,6 +26,16 @@ tc_over tc_unit_over(const tc_batch_command *look)
 tc_over tc_camera_over(const tc_batch_command *look)
 {
     return look->camera_over == TC_OVER_AUTO ? TC_OVER_FIRST : (tc_over)look->camera_over;
+}
+
+const double *tc_base_range(const tc_batch_base *base, const tc_batch_command *look, size_t field)
+{
+    return base->range[field][tc_range_over(look) == TC_OVER_ALL];
+}
+
+double tc_base_unit(const tc_batch_base *base, const tc_batch_command *look)
+{
+    return base->unit[tc_unit_over(look) == TC_OVER_ALL];
 }
 
 tc_load tc_batch_load(const tc_batch_base *base, const tc_batch_scene *scene, int step, size_t field)
@@ -62,21 +74,46 @@ static int tc_times_take(tc_batch_base *out, const tc_batch_scene *scene, tc_tal
     return -1;
 }
 
+/* The first step that can be read: of a series the first such file; a dataset with steps of its own is asked for a few. Those
+ * before it are told of when it is their turn. */
+static int tc_first_open(tc_batch_base *out, const tc_batch_scene *scene, tc_talk *talk)
+{
+    const tc_series *series = &scene->series;
+    const tc_input_options *source = &scene->look[0].picture.source;
+    const int n = series->of_files ? (int)series->n : tc_input_is_synthetic(series->path[0]) ? 1 : 1 + TC_TRIED;
+    tc_load load = tc_batch_load(out, scene, 0, 0);
+    char why[sizeof talk->last];
+    talk->muted = n > 1;
+    int first = tc_loader_open(&out->loader, source, &load, talk), code = first;
+    memcpy(why, talk->last, sizeof why);
+    for (int i = 1; i < n && code == TC_EXIT_FAILED; i++) {
+        load = tc_batch_load(out, scene, series->of_files ? i : 0, 0);
+        load.step = series->of_files ? load.step : i;
+        out->first = i;
+        tc_loader_finish(&out->loader);
+        code = tc_loader_open(&out->loader, source, &load, talk);
+    }
+    talk->muted = false;
+    if (code >= 0) {
+        if (n > 1)
+            tc_talk_error(talk, "%s", why);
+        return first;
+    }
+    tc_source_notes_say(out->loader.mesh, load.path, talk);
+    return -1;
+}
+
 int tc_batch_base_open(tc_batch_base *out, const tc_batch_scene *scene, tc_talk *talk)
 {
     *out = (tc_batch_base){.ms_survey = NAN};
-    const tc_render_command *first = &scene->look[0].picture;
-    tc_load load = tc_batch_load(out, scene, 0, 0);
-    int code = tc_loader_open(&out->loader, &first->source, &load, talk);
-    if (code < 0)
-        tc_source_notes_say(out->loader.mesh, load.path, talk);
+    int code = tc_first_open(out, scene, talk);
     if (code < 0)
         code = tc_times_take(out, scene, talk);
     out->range = code < 0 ? calloc(scene->n_field, sizeof *out->range) : NULL;
     if (code >= 0 || !out->range)
         return code < 0 ? tc_no_memory(talk) : code;
     if (out->stepped)
-        out->loader.last.step = 0;
+        out->loader.last.step = out->first;
     out->field_name = calloc(scene->n_field, sizeof *out->field_name);
     out->n_field = scene->n_field;
     for (size_t i = 0; i < scene->n_field; i++) {
@@ -89,12 +126,12 @@ int tc_batch_base_open(tc_batch_base *out, const tc_batch_scene *scene, tc_talk 
     tc_mesh_report report;
     tc_mesh_get_report(&report, out->loader.mesh);
     memcpy(out->bounds, report.bounds, sizeof out->bounds);
-    out->unit = tc_default_unit_distance(out->loader.mesh);
-    for (size_t i = 0; i < scene->n_field; i++) {
-        out->range[i][0] = INFINITY;
-        out->range[i][1] = -INFINITY;
-    }
-    memcpy(out->range[0], report.scalar_range, sizeof out->range[0]);
+    out->unit[0] = out->unit[1] = tc_default_unit_distance(out->loader.mesh);
+    for (size_t i = 0; i < scene->n_field; i++)
+        for (int k = 0; k < 2; k++) {
+            const double *found = i == 0 ? report.scalar_range : (const double[2]){INFINITY, -INFINITY};
+            memcpy(out->range[i][k], found, sizeof out->range[i][k]);
+        }
     return -1;
 }
 
@@ -109,44 +146,72 @@ static bool tc_any_over(const tc_batch_scene *scene, size_t field, tc_over over,
     return false;
 }
 
-static void tc_survey_add(tc_batch_base *base, const tc_survey *survey, size_t field, bool range, bool box)
+/* What a pass is for. */
+typedef struct tc_pass {
+    size_t field;
+    bool all; /* over all steps; else over the first alone */
+    bool range, box, unit;
+} tc_pass;
+
+static void tc_survey_add(tc_batch_base *base, const tc_survey *survey, const tc_pass *pass)
 {
     if (survey->status != TC_OK)
         return;
-    if (range && survey->range[0] <= survey->range[1]) {
-        base->range[field][0] = fmin(base->range[field][0], survey->range[0]);
-        base->range[field][1] = fmax(base->range[field][1], survey->range[1]);
+    double *range = base->range[pass->field][pass->all];
+    if (pass->range && survey->range[0] <= survey->range[1]) {
+        range[0] = fmin(range[0], survey->range[0]);
+        range[1] = fmax(range[1], survey->range[1]);
     }
     const double *b = survey->bounds;
-    for (int i = 0; box && i < 6; i++)
+    for (int i = 0; pass->box && i < 6; i++)
         base->bounds[i] = i % 2 ? fmax(base->bounds[i], b[i]) : fmin(base->bounds[i], b[i]);
     const double diagonal = hypot(hypot(b[1] - b[0], b[3] - b[2]), b[5] - b[4]);
-    if (box && survey->source_cells > 0)
-        base->unit = fmax(base->unit, diagonal / cbrt((double)survey->source_cells));
+    if (pass->unit && survey->source_cells > 0)
+        base->unit[1] = fmax(base->unit[1], diagonal / cbrt((double)survey->source_cells));
 }
 
-/* One pass over the steps with one field. */
-static int tc_survey_run(tc_batch_base *base, const tc_batch_scene *scene, size_t field, const int *step, size_t n,
-                         bool range, bool box, tc_talk *talk)
+/* Nothing is known yet of what the pass is for. */
+static void tc_pass_begin(tc_batch_base *base, const tc_pass *pass)
+{
+    if (pass->range) {
+        base->range[pass->field][pass->all][0] = INFINITY;
+        base->range[pass->field][pass->all][1] = -INFINITY;
+    }
+    for (int i = 0; pass->box && i < 6; i++)
+        base->bounds[i] = i % 2 ? -INFINITY : INFINITY;
+    if (pass->unit)
+        base->unit[1] = 0;
+}
+
+/* One pass over step [n]. */
+static int tc_survey_run(tc_batch_base *base, const tc_batch_scene *scene, const tc_pass *pass, const int *step, size_t n,
+                         tc_talk *talk)
 {
     tc_error err = {0};
+    const double first[6] = {base->bounds[0], base->bounds[1], base->bounds[2],
+                             base->bounds[3], base->bounds[4], base->bounds[5]};
     tc_survey *survey = calloc(n, sizeof *survey);
     const char **path = calloc(n, sizeof *path);
     int *number = calloc(n, sizeof *number);
     tc_status status = survey && path && number ? TC_OK : TC_E_MEMORY;
-    tc_input_options source = scene->look[field * scene->n_function].picture.source;
+    tc_input_options source = scene->look[pass->field * scene->n_function].picture.source;
     source.has_step = source.has_time = false;
     const tc_read_options read = tc_input_read_options(&source);
     for (size_t i = 0; i < n && status == TC_OK; i++) {
-        const tc_load load = tc_batch_load(base, scene, step[i], field);
+        const tc_load load = tc_batch_load(base, scene, step[i], pass->field);
         path[i] = load.path;
         number[i] = load.step;
     }
     if (status == TC_OK)
         status = base->stepped ? tc_mesh_survey(survey, number, n, path[0], &read, &talk->log, &err)
                                : tc_mesh_survey_files(survey, path, n, &read, &talk->log, &err);
+    tc_pass_begin(base, pass);
     for (size_t i = 0; i < n && status == TC_OK; i++)
-        tc_survey_add(base, &survey[i], field, range, box);
+        tc_survey_add(base, &survey[i], pass);
+    if (base->bounds[0] > base->bounds[1])
+        memcpy(base->bounds, first, sizeof first);
+    if (!(base->unit[1] > 0))
+        base->unit[1] = base->unit[0];
     free(survey);
     free(path);
     free(number);
@@ -157,22 +222,23 @@ int tc_batch_base_survey(tc_batch_base *base, const tc_batch_scene *scene, const
 {
     const double start = tc_talk_clock_s();
     const tc_batch_command *look = &scene->look[0];
-    const bool several = n > 1 && !tc_input_is_synthetic(look->picture.input);
-    const bool box = several && (tc_unit_over(look) == TC_OVER_ALL || tc_camera_over(look) == TC_OVER_ALL);
+    const bool other = n > 1 || step[0] != base->first; /* all steps are not just the first, which is known */
     int code = -1;
+    if (tc_input_is_synthetic(look->picture.input))
+        return -1;
     for (size_t i = 0; i < scene->n_field && code < 0; i++) {
-        const bool all = several && tc_any_over(scene, i, TC_OVER_ALL, tc_range_over);
-        const bool range = all || (i > 0 && !tc_input_is_synthetic(look->picture.input) &&
-                                   (tc_any_over(scene, i, TC_OVER_FIRST, tc_range_over) ||
-                                    tc_any_over(scene, i, TC_OVER_ALL, tc_range_over)));
-        static const int first = 0;
-        if (all && i == 0 && step[0] != 0) { /* the first step may not be among them */
-            base->range[0][0] = INFINITY;
-            base->range[0][1] = -INFINITY;
-        }
-        if (range || (box && i == 0))
-            code = tc_survey_run(base, scene, i, all || box ? step : &first, all || box ? n : 1, range, box && i == 0,
-                                 talk);
+        const tc_pass first = {.field = i, .range = tc_any_over(scene, i, TC_OVER_FIRST, tc_range_over)};
+        const tc_pass all = {
+            .field = i,
+            .all = true,
+            .range = (other || i > 0) && tc_any_over(scene, i, TC_OVER_ALL, tc_range_over),
+            .box = other && i == 0 && tc_camera_over(look) == TC_OVER_ALL,
+            .unit = other && i == 0 && tc_any_over(scene, i, TC_OVER_ALL, tc_unit_over),
+        };
+        if (first.range && i > 0)
+            code = tc_survey_run(base, scene, &first, &base->first, 1, talk);
+        if (code < 0 && (all.range || all.box || all.unit))
+            code = tc_survey_run(base, scene, &all, step, n, talk);
     }
     base->ms_survey = 1e3 * (tc_talk_clock_s() - start);
     return code;

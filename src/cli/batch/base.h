@@ -11,14 +11,16 @@ typedef struct tc_batch_base {
     bool stepped;  /* its one file has steps to be asked for */
     double *time;  /* [n_step]; NAN: none */
     tc_loader loader; /* holds the first step, of the first field */
-    double bounds[6], unit; /* of the first step, or of all */
+    int first;        /* that step: number 0, or, where that cannot be read, one after it */
+    double bounds[6]; /* the box that cameras see: of the first step, or of all */
+    double unit[2];   /* of the first step; of all */
     size_t n_field;
-    double (*range)[2];     /* [n_field] of the first step, or of all; lo > hi: not found from either */
+    double (*range)[2][2];  /* [n_field] of the first step, and of all; lo > hi: not found */
     char **field_name;      /* [n_field] as the file calls them */
     double ms_survey;       /* NAN: none was needed */
 } tc_batch_base;
 
-/* Reads the first step, and says what its reader noted. -1, or the exit code of an error that was printed; whatever it is,
+/* Reads the first step that can be read, and says what its reader noted. -1, or the exit code of an error that was printed; whatever it is,
  * tc_batch_base_finish frees what is there. */
 int tc_batch_base_open(tc_batch_base *out, const tc_batch_scene *scene, tc_talk *talk);
 /* Ranges, unit and box, with a pass over step [n] of the dataset where the options ask for what all of them have. A step that
@@ -32,5 +34,9 @@ void tc_batch_base_finish(tc_batch_base *base);
 tc_over tc_range_over(const tc_batch_command *look);
 tc_over tc_unit_over(const tc_batch_command *look);
 tc_over tc_camera_over(const tc_batch_command *look);
+/* The range [2] of a look of this field, lo > hi: not found, and its unit distance; where they are found from the step itself,
+ * those of the first. */
+const double *tc_base_range(const tc_batch_base *base, const tc_batch_command *look, size_t field);
+double tc_base_unit(const tc_batch_base *base, const tc_batch_command *look);
 
 #endif

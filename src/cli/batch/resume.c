@@ -37,7 +37,7 @@ static void tc_digest_of(char out[17], const tc_batch_frames *f, const tc_batch_
 {
     const tc_batch_command *look = &scene->look[place->field * scene->n_function + place->function];
     const tc_render_command *o = &look->picture;
-    const double *range = base->range[place->field], unit = o->unit_distance > 0 ? o->unit_distance : base->unit;
+    const double unit = o->unit_distance > 0 ? o->unit_distance : tc_base_unit(base, look);
     const tc_batch_view *view = &f->view[tc_batch_view_of(f, place)];
     json_t *json = tc_digest_options(o);
     tc_json_text(json, "tetcast", tc_version());
@@ -50,7 +50,7 @@ static void tc_digest_of(char out[17], const tc_batch_frames *f, const tc_batch_
     json_object_set_new(json, "view", json_integer((json_int_t)tc_batch_view_of(f, place)));
     json_object_set_new(json, "phi", tc_json_reals(&view->phi, 1));
     json_object_set_new(json, "theta", tc_json_reals(&view->theta, 1));
-    json_object_set_new(json, "range", o->has_range ? json_null() : tc_found(tc_range_over(look), range, 2));
+    json_object_set_new(json, "range", o->has_range ? json_null() : tc_found(tc_range_over(look), tc_base_range(base, look, place->field), 2));
     json_object_set_new(json, "unit", tc_found(tc_unit_over(look), &unit, 1));
     json_object_set_new(json, "depth", json_boolean(o->out.depth));
     json_object_set_new(json, "value", json_boolean(o->out.value));

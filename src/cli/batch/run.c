@@ -38,6 +38,7 @@ typedef struct tc_run {
     char warned[512];     /* what a writer said last */
     int failed_in_a_row;  /* writes */
     bool bounded;         /* --memory was looked at */
+    bool ended;           /* by it: nothing more is made */
 } tc_run;
 
 static int tc_no_memory(tc_talk *talk)
@@ -102,6 +103,7 @@ static int tc_memory_bound(tc_run *r, const tc_render_run *run)
         tc_talk_error(r->talk, "a first picture takes %.0f MiB of memory, more than --memory, %.0f MiB: allow more, or make "
                                "--size smaller",
                       used / 1048576, (double)most / 1048576);
+        r->ended = true;
         return TC_EXIT_FAILED;
     }
     const double left = (double)most - used;
@@ -274,7 +276,7 @@ static void tc_next_begin(tc_run *r, size_t position, size_t field)
 /* The range that the function is laid over. */
 static const double *tc_range_of(const tc_run *r, const tc_render_run *run, const tc_batch_command *look, size_t field)
 {
-    const double *range = r->base->range[field];
+    const double *range = tc_base_range(r->base, look, field);
     return tc_range_over(look) == TC_OVER_STEP || !(range[0] <= range[1]) ? run->report.scalar_range : range;
 }
 
@@ -301,7 +303,7 @@ static int tc_function_make(tc_run *r, size_t position, size_t field, size_t fun
     tc_mesh_get_report(&run.report, run.mesh);
     if (!(options.unit_distance > 0))
         options.unit_distance =
-            tc_unit_over(look) == TC_OVER_STEP ? tc_default_unit_distance(run.mesh) : r->base->unit;
+            tc_unit_over(look) == TC_OVER_STEP ? tc_default_unit_distance(run.mesh) : tc_base_unit(r->base, look);
     if (tc_range_over(look) == TC_OVER_STEP)
         tc_transfer_destroy(&run.tf);
     int code = tc_render_setup(&run, tc_range_of(r, &run, look, field), r->talk);
@@ -324,7 +326,7 @@ static int tc_function_make(tc_run *r, size_t position, size_t field, size_t fun
             continue;
         tc_report_bar(r->report, r->frames->frame[i].file);
         code = tc_frame_make(r, &run, i);
-        if (code >= 0 && r->bounded && r->base->loader.set_up == 0)
+        if (r->ended)
             return code;
         if (code >= 0) {
             tc_frame_fail(r, i, r->talk->last);
