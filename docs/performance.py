@@ -326,6 +326,25 @@ def small(page):
         page.absent("Instructions, counted", "counts")
 
 
+def batch(page):
+    data = page.section("batch")
+    if not data:
+        return page.absent("Batches", "batch")
+    names = [("bunyk", "VTK, ray caster"), ("projected", "VTK, projected tetrahedra"), ("once", "tetcast once a frame")]
+    rows = []
+    for name, r in data["rows"].items():
+        rate = r["frames_per_minute"]
+        rows.append([name, r["frames"], num(rate["batch"])] +
+                    [f"{num(rate[k])} ({num(r['over'][k])} ×)" if k in rate else None for k, _ in names])
+    page.add(f"## Batches\n\nPictures of {data['size']} a minute, PNG files included: all steps, 4 views, 2 functions, by `tetcast batch`, and by the "
+             "same loop in VTK's Python under Xvfb (tests/bench/batch_vtk.py), in turn in one run; in brackets how many times as many the batch "
+             "makes. What the steps take to read and set up is in all of them.\n\n" +
+             table(["", "frames", "batch"] + [title for _, title in names], rows))
+    over = data["memory"]
+    page.plot("performance-batch.svg", "memory over a batch", f"Resident memory of a batch, helpers included: {over['steps']} steps, each with a new mesh",
+              "frame", "MiB", [("", style(0), over["points"])], "off", "unset logscale\nset yrange [0:*]")
+
+
 def make(results, out):
     page = Page(results, out)
     renderers = {r["stats"]["gl"]["renderer"] for row in (page.section("peers") or {"rows": []})["rows"] for r in row["runs"]
@@ -339,7 +358,7 @@ def make(results, out):
     loads = [name for name, entry in results["sections"].items() if entry["load"] > results["cores"] + 0.5]
     if loads:
         page.add(f"Other work ran beside these sections, whose times are therefore too long: {', '.join(loads)}.")
-    for part in (bars, peers, passes, integration, parts, signs, memory, growth, small):
+    for part in (bars, peers, passes, integration, parts, signs, memory, growth, batch, small):
         part(page)
     path = os.path.join(out, "performance.md")
     with open(path + ".part", "w", encoding="utf-8") as file:

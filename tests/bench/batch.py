@@ -96,13 +96,63 @@ def row_of(options, row, rounds):
     return out
 
 
+def resident(pid):
+    """Bytes of a process and of its children."""
+    total = 0
+    for who in [str(pid), *children(pid)]:
+        try:
+            with open(f"/proc/{who}/statm", encoding="ascii") as file:
+                total += int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        except (OSError, IndexError):
+            pass
+    return total
+
+
+def children(pid):
+    out = []
+    for thread in os.listdir(f"/proc/{pid}/task"):
+        try:
+            with open(f"/proc/{pid}/task/{thread}/children", encoding="ascii") as file:
+                out += file.read().split()
+        except OSError:
+            pass
+    return out
+
+
+def memory(options, steps):
+    """Resident memory over a batch of many steps, each with a mesh that has moved: files of can_series in turn."""
+    work = fresh(os.path.join(options.work, "batch_memory"))
+    files = [os.path.join(options.data, "vol", "can_series", f"can_{i}.hdf") for i in range(3)]
+    if not all(os.path.exists(f) for f in files):
+        raise Absent("can_series is not in the folder of real meshes (--data)")
+    for i in range(steps):
+        os.symlink(files[i % 3], os.path.join(work, f"step_{i:03d}.hdf"))
+    command = [program(options, "tetcast"), "batch", os.path.join(work, "step_%03d.hdf"), "--field", "VEL", "--range-over", "first",
+               "--range", "0,5700", "--size", options.size, "-q", "--json", "-o", os.path.join(work, "{step:03d}.png")]
+    points = []
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as run:
+        for line in run.stdout:
+            event = json.loads(line)
+            if event["event"] == "frame":
+                points.append((event["finished"], resident(run.pid) / 2**20))
+    if run.returncode or len(points) != steps:
+        raise Failure(f"a batch of {steps} steps ended with {run.returncode} after {len(points)}")
+    shutil.rmtree(work)
+    early = max(m for n, m in points if steps // 10 < n <= steps // 2)
+    late = max(m for n, m in points if n > steps // 2)
+    print(f"  {steps} steps that move: {early:.0f} MiB at most in the first half, {late:.0f} in the second ({late / early:.3f})")
+    return {"steps": steps, "points": points, "growth": late / early}
+
+
 def measure(options):
-    """Frames a minute of a batch: against VTK's Python, and against tetcast once a frame."""
+    """Frames a minute of a batch: against VTK's Python, and against tetcast once a frame; memory over 200 steps."""
     result = {}
     for row in ROWS:
         result[row] = row_of(options, row, 1 if options.quick else 3)
     first = result[next(iter(ROWS))]["over"]
-    bars = [bar("frames a minute of a batch, by tetcast once a frame", first["once"], 2, least=True)]
+    over = memory(options, 24 if options.quick else 200)
+    bars = [bar("frames a minute of a batch, by tetcast once a frame", first["once"], 2, least=True),
+            bar("memory of a batch, second half of its steps over the first", over["growth"], 1.05)]
     if "bunyk" in first:
         bars.append(bar("frames a minute of a batch, by the same loop in VTK's Python (ray caster)", first["bunyk"], 6, least=True))
-    return {"rows": result}, bars
+    return {"rows": result, "memory": over, "size": options.size}, bars
