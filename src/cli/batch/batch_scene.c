@@ -170,7 +170,7 @@ static int tc_looks_take(tc_batch_scene *out, tc_talk *talk, int argc, char **ar
             tc_batch_command *look = &out->look[i * out->n_function + k];
             const json_t *one = tc_element(function, k);
             json_t *json = tc_look_json(out, tc_element(field, i), one, data);
-            const tc_scene_at at = {json, json_is_array(function) ? (int)k : -1, out->text, out->folder};
+            const tc_scene_at at = {json, json_is_array(function) ? (int)k : -1, out->text, out->folder, i + k > 0};
             code = json ? tc_batch_command_take(look, &at, talk, argc, argv) : tc_no_memory(talk);
             json_decref(json);
             if (i == 0 && code < 0 && !(out->function[k] = tc_function_name(function, one, k)))

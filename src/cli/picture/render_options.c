@@ -561,7 +561,7 @@ static int tc_scene_take(tc_render_command *out, const tc_scene_at *at, tc_talk 
     tc_render_command line = *out;
     const bool is_scene = at || tc_input_is_scene(line.input);
     const bool is_state = !is_scene && tc_input_is_paraview(line.input);
-    const bool silent = at && at->element > 0; /* it was said with the first */
+    const bool silent = at && at->again;
     int n_argument, code;
     tc_render_command_defaults(out);
     if (!is_scene)

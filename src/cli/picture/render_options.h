@@ -95,6 +95,7 @@ typedef struct tc_scene_at {
     json_t *json;
     int element; /* of the text's list of transfer functions; -1: it has none */
     const char *text, *folder;
+    bool again; /* what is to be said of it was said before */
 } tc_scene_at;
 /* The same for a scene that is not read from its file; at NULL: it is. */
 int tc_picture_command_take(tc_render_command *out, const tc_scene_at *at, tc_talk *talk, const tc_command *command,
