@@ -159,7 +159,7 @@ static int tc_band_write(tc_bands *b, int argc, char **argv)
 static int tc_bands_run(tc_bands *b, bool count, int argc, char **argv)
 {
     const tc_render_options *render = &b->run->render;
-    const int rows = render->width >= TC_BAND_PIXELS ? 1 : TC_BAND_PIXELS / render->width;
+    const int most = TC_BAND_PIXELS / render->width, rows = most < TC_ONCE_SIDE ? most : TC_ONCE_SIDE;
     const int n = (render->height + rows - 1) / rows;
     int code = -1;
     for (int i = 0; i < n && code < 0; i++) { /* of as many rows, but for one */

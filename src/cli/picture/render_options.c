@@ -398,7 +398,7 @@ static int tc_outputs_check(const tc_render_command *out, tc_talk *talk)
             code = TC_EXIT_USAGE;
         }
         if (code < 0 && file[i].path && !(out->steps.there && file[i].picture)) /* names of steps: render_sequence.c */
-            code = tc_output_check(file[i].path, talk);
+            code = i == 0 ? tc_stereo_output_check(out, talk) : tc_output_check(file[i].path, talk);
         code = tc_blame_end(code, talk);
     }
     return code;

@@ -1,5 +1,6 @@
 /* stereo_options.c: pictures for two eyes: what is asked for, what it cannot go with, and names. */
 #include "cli/picture/stereo_options.h"
+#include "cli/json_out.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -67,4 +68,16 @@ int tc_stereo_check(const tc_render_command *o, tc_talk *talk)
             "--stereo %s makes a picture of %dx%d pixels of --size %dx%d; at most %d each way can be",
             tc_stereo_choice[o->out.stereo].name, width, height, o->size.width, o->size.height, TC_SIDE_MOST);
     return o->out.stereo == TC_STEREO_PAIR && o->output ? tc_pair_check(o, talk) : -1;
+}
+
+int tc_stereo_output_check(const tc_render_command *o, tc_talk *talk)
+{
+    char name[8192];
+    int code = -1;
+    if (o->out.stereo != TC_STEREO_PAIR)
+        return tc_output_check(o->output, talk);
+    for (int eye = 0; eye < 2 && code < 0; eye++)
+        code =
+            tc_stereo_name(name, sizeof name, o->output, eye) ? tc_output_check(name, talk) : -1; /* tc_stereo_check */
+    return code;
 }

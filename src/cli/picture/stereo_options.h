@@ -18,5 +18,7 @@ int tc_stereo_check(const tc_render_command *options, tc_talk *talk);
 /* The name of an eye's picture (0 left, 1 right): {eye} in the pattern becomes left or right, else _left or _right
  * stands before the extension. False: it has no room in out [capacity]. */
 bool tc_stereo_name(char *out, size_t capacity, const char *pattern, int eye);
+/* tc_output_check of options->output, or of the two names that it stands for. */
+int tc_stereo_output_check(const tc_render_command *options, tc_talk *talk);
 
 #endif
