@@ -118,6 +118,7 @@ int tc_batch_run_command(tc_talk *talk, const tc_command *command, int argc, cha
     tc_batch_base base = {0};
     tc_batch_frames frames = {0};
     (void)command;
+    tc_stop_prepare();
     int code = tc_batch_scene_read(&scene, talk, argc, argv);
     if (code < 0)
         code = tc_batch_base_open(&base, &scene, talk);

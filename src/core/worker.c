@@ -116,14 +116,14 @@ static size_t machine_memory(void)
     return bytes - bytes / 8;
 }
 
-/* Signals that this program has a handler for: it wants to end its work in order, for which it needs its helpers, whom the
- * terminal or a scheduler sends them, too. */
+/* Signals that this program has a handler for, or ignores (nohup, jobs in the background): it goes on, or wants to end its
+ * work in order, for which it needs its helpers, whom the terminal or a scheduler sends them, too. */
 static void add_handled(sigset_t *out)
 {
-    static const int number[] = {SIGINT, SIGTERM};
+    static const int number[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
     for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
         struct sigaction now;
-        if (sigaction(number[i], NULL, &now) == 0 && now.sa_handler != SIG_DFL && now.sa_handler != SIG_IGN)
+        if (sigaction(number[i], NULL, &now) == 0 && now.sa_handler != SIG_DFL)
             sigaddset(out, number[i]);
     }
 }

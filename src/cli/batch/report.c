@@ -137,6 +137,23 @@ void tc_report_failed(tc_report *r, const char *file, const char *why, size_t fr
     }
 }
 
+/* left: frames that were not begun, since the run ended before. */
+static void tc_failures_list(const tc_report *r, size_t left)
+{
+    if (r->failed == 0)
+        return;
+    tc_talk_error(r->talk, "%zu of %zu frames are missing:", r->failed + left, r->all);
+    for (size_t i = 0; i < r->n_failure && i < TC_LISTED; i++) {
+        const tc_failure *one = &r->failure[i];
+        const bool named = !*one->file || !strncmp(one->why, one->file, strlen(one->file)); /* by the sentence itself */
+        fprintf(stderr, "  %s%s%s\n", named ? "" : one->file, named ? "" : ": ", one->why);
+    }
+    if (r->n_failure > TC_LISTED)
+        fprintf(stderr, "  … and %zu more\n", r->n_failure - TC_LISTED);
+    if (left > 0)
+        fprintf(stderr, "  and %zu that were not begun\n", left);
+}
+
 void tc_report_end(tc_report *r, const char *stopped)
 {
     char took[64], kept[64] = "";
@@ -150,12 +167,7 @@ void tc_report_end(tc_report *r, const char *stopped)
                 "%zu of %zu frames made%s, in %s (%.3g a minute); at most %.1f MiB of memory, helpers %.1f MiB",
                 r->done, r->all, kept, took, 60 * (double)r->done / fmax(seconds, 1e-9), (double)self / 1048576,
                 (double)helper / 1048576);
-    if (r->failed > 0)
-        tc_talk_error(r->talk, "%zu of %zu frames are missing:", r->failed, r->all);
-    for (size_t i = 0; i < r->n_failure && i < TC_LISTED; i++)
-        fprintf(stderr, "  %s%s%s\n", r->failure[i].file, *r->failure[i].file ? ": " : "", r->failure[i].why);
-    if (r->n_failure > TC_LISTED)
-        fprintf(stderr, "  … and %zu more\n", r->n_failure - TC_LISTED);
+    tc_failures_list(r, stopped ? 0 : r->all - tc_report_count(r));
     if (stopped)
         tc_talk_error(r->talk, "stopped by %s after %zu of %zu frames: the same command with --resume goes on", stopped,
                       tc_report_count(r), r->all);

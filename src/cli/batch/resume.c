@@ -68,7 +68,6 @@ char *tc_batch_frame_text(const tc_batch_frames *frames, const tc_batch_base *ba
     tc_digest_of(digest, frames, base, scene, &place, &values, data);
     json_t *json = json_object();
     tc_json_text(json, "digest", digest);
-    json_object_set_new(json, "frame", json_integer((json_int_t)frame));
     json_object_set_new(json, "step", json_integer(place.step));
     tc_json_real(json, "time", values.time);
     tc_json_real(json, "phi", values.phi);

@@ -17,7 +17,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { TC_FAILED_MOST = 3, TC_WRITERS_MOST = 4, TC_ARGUMENTS = 256 };
+enum { TC_FAILED_MOST = 3, TC_WRITERS_MOST = 4, TC_ARGUMENTS = 256, TC_SAID = 64 };
 
 typedef struct tc_run {
     tc_batch_frames *frames;
@@ -35,10 +35,12 @@ typedef struct tc_run {
     char data[512];       /* identity of the file at hand */
     size_t empty;         /* pictures in which nothing is seen */
     char empty_why[1024];
-    char warned[512];     /* what a writer said last */
+    uint64_t said[TC_SAID]; /* warnings that were printed lately */
+    size_t n_said;
     int failed_in_a_row;  /* writes */
     bool bounded;         /* --memory was looked at */
     bool ended;           /* by it: nothing more is made */
+    tc_log log;           /* of talk, before */
 } tc_run;
 
 static int tc_no_memory(tc_talk *talk)
@@ -49,15 +51,35 @@ static int tc_no_memory(tc_talk *talk)
 
 /* --------------------------------------------------------------------------------------------------------- writing */
 
+/* What the library says; a warning of thousands of pictures once. As tc_log's message. */
+static void tc_run_message(void *user, tc_level level, const char *text)
+{
+    tc_run *r = user;
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++)
+        hash = (hash ^ *c) * 0x100000001b3u;
+    for (size_t i = 0; level == TC_WARNING && i < r->n_said && i < TC_SAID; i++)
+        if (r->said[i] == hash)
+            return;
+    if (level == TC_WARNING)
+        r->said[r->n_said++ % TC_SAID] = hash;
+    r->log.message(r->log.user, level, text);
+}
+
+static void tc_run_progress(void *user, const char *what, double fraction)
+{
+    tc_run *r = user;
+    if (!r->talk->terminal) /* there the bar is on the line */
+        r->log.progress(r->log.user, what, fraction);
+}
+
 /* What became of a frame that was written. -1, or the exit code that ends the run. */
 static int tc_written_note(tc_run *r, const tc_written *w)
 {
     tc_batch_frame *frame = &r->frames->frame[w->frame];
     const tc_name_values values = tc_batch_values(r->frames, r->base, r->scene, w->frame);
-    if (*w->warning && strcmp(r->warned, w->warning) != 0) {
-        snprintf(r->warned, sizeof r->warned, "%s", w->warning);
-        tc_talk_warning(r->talk, "%s", w->warning);
-    }
+    if (*w->warning)
+        tc_run_message(r, TC_WARNING, w->warning);
     frame->state = w->status == TC_OK ? TC_STATE_DONE : TC_STATE_FAILED;
     tc_report_frame(r->report, w->status == TC_OK ? TC_FRAME_DONE : TC_FRAME_FAILED, w->frame, frame->file, values.step,
                     values.time, w->status == TC_OK ? NULL : w->err.text, w->ms, w->bytes);
@@ -65,9 +87,13 @@ static int tc_written_note(tc_run *r, const tc_written *w)
         r->failed_in_a_row = 0;
         return tc_catalogue_add(r->catalogue, r->frames, r->base, r->scene, w->frame, r->talk);
     }
+    char about[sizeof r->talk->about]; /* of the step at hand, which may be another */
+    memcpy(about, r->talk->about, sizeof about);
+    *r->talk->about = 0;
     tc_talk_error(r->talk, "%s", w->err.text);
-    if (++r->failed_in_a_row < TC_FAILED_MOST)
-        return -1;
+    memcpy(r->talk->about, about, sizeof about);
+    if (++r->failed_in_a_row != TC_FAILED_MOST)
+        return r->failed_in_a_row < TC_FAILED_MOST ? -1 : TC_EXIT_FAILED;
     tc_talk_error(r->talk, "%d pictures in a row could not be written: the batch ends; with --resume it goes on",
                   r->failed_in_a_row);
     return TC_EXIT_FAILED;
@@ -357,7 +383,7 @@ static int tc_load_make(tc_run *r, size_t position, size_t field)
                 n++;
             }
         char what[64];
-        snprintf(what, sizeof what, "step %d (%zu pictures)", load.number, n);
+        snprintf(what, sizeof what, "step %d (%zu picture%s)", load.number, n, n == 1 ? "" : "s");
         tc_report_failed(r->report, what, r->talk->last, n);
         return -1;
     }
@@ -403,10 +429,9 @@ int tc_batch_run(tc_batch_frames *frames, tc_batch_base *base, tc_catalogue *cat
 {
     tc_run r = {.frames = frames, .base = base, .catalogue = catalogue, .scene = scene, .report = report, .talk = talk};
     size_t position = 0, field = 0;
-    const tc_log log = talk->log;
+    r.log = talk->log;
+    talk->log = (tc_log){.message = tc_run_message, .progress = tc_run_progress, .user = &r};
     int code = tc_run_open(&r);
-    if (talk->terminal)
-        talk->log.progress = NULL; /* the bar is on the line */
     while (code < 0 && !tc_stop_asked() && tc_next_load(&r, &position, &field)) {
         code = tc_load_make(&r, position, field);
         field++;
@@ -416,7 +441,7 @@ int tc_batch_run(tc_batch_frames *frames, tc_batch_base *base, tc_catalogue *cat
         int ends = tc_written_take(&r, true);
         code = code < 0 ? ends : code;
     }
-    talk->log = log;
+    talk->log = r.log;
     if (r.empty > 0)
         tc_talk_always(talk, "%zu %s: %s", r.empty, r.empty == 1 ? "picture is empty" : "pictures are empty, the first one",
                        r.empty_why);

@@ -5,14 +5,17 @@
 #include <signal.h>
 #include <stddef.h>
 
-static volatile sig_atomic_t tc_stop_signal;
+static volatile sig_atomic_t tc_stop_signal, tc_stop_listens;
 
 static void tc_on_signal(int number)
 {
-    tc_stop_signal = number;
+    if (tc_stop_listens)
+        tc_stop_signal = number;
+    else
+        raise(number); /* what it does is as before again, once this function is left */
 }
 
-void tc_stop_listen(void)
+void tc_stop_prepare(void)
 {
     struct sigaction action = {.sa_handler = tc_on_signal, .sa_flags = SA_RESTART | SA_RESETHAND}, before;
     sigemptyset(&action.sa_mask);
@@ -25,6 +28,11 @@ void tc_stop_listen(void)
     sigemptyset(&ignore.sa_mask);
     sigaction(SIGPIPE, &ignore, NULL);
     sigaction(SIGXFSZ, &ignore, NULL);
+}
+
+void tc_stop_listen(void)
+{
+    tc_stop_listens = 1;
 }
 
 const char *tc_stop_asked(void)

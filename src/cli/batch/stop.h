@@ -2,7 +2,9 @@
 #ifndef TC_CLI_BATCH_STOP_H
 #define TC_CLI_BATCH_STOP_H
 
-/* From now on signals ask. */
+/* Before any helper program is started: those signals stay away from helpers, and still end this program at once. */
+void tc_stop_prepare(void);
+/* From now on they ask. */
 void tc_stop_listen(void);
 /* The name of the signal that asked, "SIGINT"; NULL: none did. */
 const char *tc_stop_asked(void);
