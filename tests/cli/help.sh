@@ -19,7 +19,7 @@ for command in render explain study info compare synth backends; do
     prints "tetcast "
     awk 'length($0) > 140 { exit 1 }' out || fail "a line of the help is too long"
 done
-for later in batch edit texture; do
+for later in edit texture; do
     run 0 --help
     ! grep -q "^  $later " out || fail "$later is listed, but is not there"
     run 2 $later

@@ -6,8 +6,8 @@ small="--size 24x18 --quiet"
 mkdir data
 cube data/disk.vtu
 
-# The example of docs/formats.md, word by word; its paths lead from its folder.
-sed -n '/^```json$/,/^```$/p' "$TC_SOURCE/docs/formats.md" | grep -v '^```' >data/disk.json
+# The first example of docs/formats.md, word by word; its paths lead from its folder.
+sed -n '/^```json$/,/^```$/{p;/^```$/q}' "$TC_SOURCE/docs/formats.md" | grep -v '^```' >data/disk.json
 [ "$(wc -l <data/disk.json)" -gt 10 ] || fail "docs/formats.md has no example"
 run 0 render data/disk.json --driver reference
 there data/disk.png
@@ -103,10 +103,11 @@ wrong "wrong.json:2: camera.position takes X,Y,Z, not '1,2'" '{"data": "synth:ba
 wrong "wrong.json:1: camera.view_angle takes DEG, above 0" '{"data": "synth:ball", "camera": {"view_angle": 0}}'
 wrong "wrong.json:1: effects.shade takes off|cell|vertex, not 'cel'; the nearest is 'cell'" '{"data": "synth:ball", "effects": {"shade": "cel"}}'
 wrong "wrong.json:1: effects takes an object" '{"data": "synth:ball", "effects": ["mip"]}'
-wrong "wrong.json:2: views is not in this version" '{"data": "synth:ball",
+wrong "wrong.json:2: views stands for several pictures, which tetcast batch makes" '{"data": "synth:ball",
 "views": 7}'
+wrong "wrong.json:1: transfer_function stands for several pictures" '{"data": "synth:ball", "transfer_function": [{}]}'
+wrong "wrong.json:1: data stands for several pictures" '{"data": ["a.vtu", "b.vtu"]}'
 wrong "wrong.json:1: shell is not in this version" '{"data": "synth:ball", "shell": {}}'
-wrong "wrong.json:1: output.cinema is not in this version" '{"data": "synth:ball", "output": {"cinema": true}}'
 wrong "wrong.json:1: output.size takes WxH: each from 1 to 32768" '{"data": "synth:ball", "output": {"size": [0, 4]}}'
 wrong "wrong.json names no data: add \"data\": \"FILE\"" '{"field": "x"}'
 wrong "wrong.json:3: this is no JSON" '{"data": "synth:ball",
