@@ -36,4 +36,9 @@ there high.jpg
 run 0 render $ball --size 1500x1500 --opacity 0:0,1:0 -o empty.png
 says "the picture is empty"
 [ "$(grep -c "is empty" err)" -eq 1 ] || fail "it is said more than once"
+# Rays that the paper's arithmetic loses are counted over all bands, and the picture is there all the same.
+run 1 render synth:cap-1e8 --size 1500x1500 --stepper planes -o planes.png --stats planes.json
+lost=$(grep -o '"rays_lost": [0-9]*' planes.json | grep -o '[0-9]*')
+says "$lost of "
+there planes.png
 finish

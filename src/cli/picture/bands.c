@@ -6,6 +6,7 @@
 #include "cli/picture/stats_sum.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -184,12 +185,19 @@ int tc_bands_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int a
     tc_bands b = {.run = run, .renderer = frames->renderer, .talk = talk};
     tc_error err = {0};
     char why[640];
+    const tc_ink ink = run->ink;
     int code = tc_bands_run(&b, false, argc, argv);
     run->count = run->first;
     if (code < 0 && (o->count || o->audit || o->stats) && (strcmp(run->first.driver, "reference") != 0 || o->audit)) {
         code = tc_bands_run(&b, true, argc, argv);
         run->counted = code < 0;
     }
+    if (run->lost.code) /* said for one band */
+        snprintf(
+            run->lost.text, sizeof run->lost.text,
+            "%lld of %lld rays were lost by the stepper 'planes', the arithmetic of the paper, which is here to be "
+            "compared with; the stepper 'signs' loses none",
+            (long long)run->count.rays_lost, (long long)run->count.rays);
     const double start = tc_talk_clock_s();
     tc_status status = b.stream ? tc_image_stream_close(&b.stream, code < 0, &err) : TC_OK;
     if (code < 0 && status != TC_OK)
@@ -209,5 +217,6 @@ int tc_bands_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int a
                         (long long)run->count.steps);
     }
     run->measured = code < 0 || run->count.rays_lost > 0;
+    run->ink = ink;
     return code;
 }
