@@ -50,20 +50,25 @@ static int tc_json_take(tc_batch_scene *out, const char *input, tc_talk *talk)
 
 /* Where the scene has no views, the path of the camera of the ParaView state that lies under it: the command line's, else
  * the scene's own. */
-static int tc_state_views_take(tc_batch_scene *out, const char *state, tc_talk *talk)
+static int tc_state_take(tc_batch_scene *out, const char *state, tc_talk *talk)
 {
     const char *own = json_string_value(json_object_get(out->json, "paraview"));
-    char *led = NULL;
-    json_t *views = NULL;
-    int code = -1;
-    if (json_object_get(out->json, "views") || (!state && !own))
+    const bool has_data = json_object_get(out->json, "data"), has_views = json_object_get(out->json, "views");
+    char *led = state ? strdup(state) : own ? tc_scene_path_from(out->folder, own) : NULL;
+    json_t *data = NULL, *views = NULL;
+    if ((!state && !own) || (has_data && has_views)) {
+        free(led);
         return -1;
-    if (asprintf(&led, "%s%s%s", state || *own == '/' || !out->folder ? "" : out->folder,
-                 state || *own == '/' || !out->folder ? "" : "/", state ? state : own) < 0)
-        return tc_no_memory(talk);
-    code = tc_paraview_many(NULL, &views, led, talk);
-    if (views)
-        json_object_set_new(out->json, "views", views);
+    }
+    int code = led ? tc_paraview_many(has_data ? NULL : &data, &views, led, talk) : tc_no_memory(talk);
+    if (views && !has_views)
+        json_object_set(out->json, "views", views);
+    if (data) {
+        json_object_set(out->json, "data", data);
+        out->data_whole = true;
+    }
+    json_decref(views);
+    json_decref(data);
     free(led);
     return code;
 }
@@ -206,7 +211,7 @@ int tc_batch_scene_read(tc_batch_scene *out, tc_talk *talk, int argc, char **arg
     if (code < 0)
         code = tc_json_take(out, input, talk);
     if (code < 0)
-        code = tc_state_views_take(out, state, talk);
+        code = tc_state_take(out, state, talk);
     if (code >= 0)
         return code;
     const json_t *data = json_object_get(out->json, "data"), *views = json_object_get(out->json, "views");
@@ -214,7 +219,8 @@ int tc_batch_scene_read(tc_batch_scene *out, tc_talk *talk, int argc, char **arg
         return tc_refuse(out, "data", talk, "is missing: add \"data\": \"FILE\"");
     if (!json_is_string(data) && !json_is_array(data))
         return tc_refuse(out, "data", talk, "takes the name of a file, a pattern, or a list of them");
-    code = tc_series_make(&out->series, data, json_object_get(out->json, "times"), out->folder, talk);
+    code = tc_series_make(&out->series, data, json_object_get(out->json, "times"),
+                          out->data_whole ? NULL : out->folder, talk);
     if (code < 0 && views) {
         char called[512];
         snprintf(called, sizeof called, "%.400s:%d: views", out->path ? out->path : input,

@@ -9,6 +9,7 @@
 typedef struct tc_batch_scene {
     char *path;                 /* of the scene file; NULL: a dataset was given */
     char *text, *folder;        /* of the file */
+    bool data_whole;            /* data, which a ParaView state gave, lead from the current folder */
     json_t *json;
     tc_series series;
     tc_views views;

@@ -338,7 +338,7 @@ static const char *tc_type_name(const json_t *value)
 /* ---------------------------------------------------------------------------------------------------------- paths */
 
 /* path, if it is not absolute, from the folder; NULL: memory ran out. */
-static char *tc_path_from(const char *folder, const char *path)
+char *tc_scene_path_from(const char *folder, const char *path)
 {
     char *text = NULL;
     if (!folder || !*folder || *path == '/')
@@ -377,7 +377,7 @@ static char *tc_path_lead(const tc_scene_reader *r, tc_scene_path kind, char *te
 {
     if (!text || kind == TC_PATH_NONE || (kind == TC_PATH_FILE && !strcmp(text, "-")))
         return text;
-    char *led = tc_path_from(r->folder, text);
+    char *led = tc_scene_path_from(r->folder, text);
     if (kind == TC_PATH_MAYBE && led && (tc_is_name(text) || !tc_is_file(led))) {
         free(led);
         return text;
@@ -500,7 +500,7 @@ static int tc_data_take(const tc_scene_reader *r, const json_t *value)
         return tc_refuse_many(r, "", "data");
     if (!data || !*data)
         return tc_refuse_type(r, "", "data", "the name of a file, or synth:NAME[:CELLS]", value);
-    r->out->data = !strncmp(data, "synth:", 6) ? strdup(data) : tc_path_from(r->folder, data);
+    r->out->data = !strncmp(data, "synth:", 6) ? strdup(data) : tc_scene_path_from(r->folder, data);
     return r->out->data ? -1 : tc_out_of_memory(r->talk);
 }
 

@@ -54,6 +54,8 @@ int tc_scene_parse(tc_scene *out, const char *text, const char *name, const char
 int tc_scene_load(json_t **json, char **text, const char *path, tc_talk *talk);
 /* The folder that a scene's paths lead from, from malloc; NULL: the current one, as of a picture. False: memory ran out. */
 bool tc_scene_folder(char **folder, const char *path);
+/* A path that leads from that folder (NULL or "": the current one), if it is not absolute; from malloc; NULL: memory ran out. */
+char *tc_scene_path_from(const char *folder, const char *path);
 /* As tc_scene_parse, of an object; text is the file's, NULL: errors name no line. element: of the text's list of transfer functions the one that is in
  * json; -1: it is no list. */
 int tc_scene_from_json(tc_scene *out, json_t *json, int element, const char *text, const char *name, const char *folder,
