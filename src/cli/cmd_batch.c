@@ -87,7 +87,8 @@ static int tc_batch_make(tc_batch_frames *frames, tc_batch_base *base, const tc_
     int code = look->resume ? tc_batch_resume(frames, &stale, base, scene, talk) : -1;
     tc_report_begin(&report, talk, look->json, frames->plan.n - tc_count(frames, TC_STATE_OTHER));
     if (stale > 0)
-        tc_talk_say(talk, "%zu files are of another scene, of other data or damaged, and are made anew", stale);
+        tc_talk_say(talk, "%zu file%s of another scene, of other data or damaged, and made anew", stale,
+                    stale == 1 ? " is" : "s are");
     if (code < 0 && look->dry_run) {
         tc_frames_list(frames, base, scene, &report, talk);
         tc_report_finish(&report);

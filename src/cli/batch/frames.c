@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "cli/batch/frames.h"
 #include "cli/picture/render_view.h"
+#include "cli/picture/stereo_options.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -205,6 +206,20 @@ static const char *tc_untold(const tc_batch_frames *f, const tc_batch_scene *sce
     return NULL;
 }
 
+char *tc_batch_eye_file(const tc_batch_frames *f, const tc_batch_base *base, const tc_batch_scene *scene, size_t frame,
+                        int eye)
+{
+    static const char *const side[] = {"left", "right"};
+    char name[TC_PATH_ROOM], both[TC_PATH_ROOM], why[256];
+    tc_name_values values = tc_batch_values(f, base, scene, frame);
+    values.eye = side[eye];
+    if (!tc_name_make(name, sizeof name, f->pattern, &values, why, sizeof why))
+        return NULL;
+    if (tc_name_uses(f->pattern, why, sizeof why) & TC_NAME_EYE)
+        return strdup(name);
+    return tc_stereo_name(both, sizeof both, name, eye) ? strdup(both) : NULL;
+}
+
 static int tc_name_order(const void *a, const void *b)
 {
     const char *const *x = a, *const *y = b;
@@ -236,6 +251,7 @@ static int tc_names_make(tc_batch_frames *f, const tc_batch_base *base, const tc
 {
     char name[TC_PATH_ROOM], why[256] = "";
     const tc_render_command *o = &scene->look[0].picture;
+    const bool pair = o->out.stereo == TC_STEREO_PAIR; /* of which the left eye's stands for both */
     const unsigned uses = tc_name_uses(f->pattern, why, sizeof why);
     const char *untold = *why ? NULL : tc_untold(f, scene, uses);
     if (untold) {
@@ -246,12 +262,14 @@ static int tc_names_make(tc_batch_frames *f, const tc_batch_base *base, const tc
     if (!f->frame)
         return tc_no_memory(talk);
     for (size_t i = 0; i < f->plan.n; i++) {
-        const tc_name_values values = tc_batch_values(f, base, scene, i);
+        tc_name_values values = tc_batch_values(f, base, scene, i);
+        values.eye = pair ? "left" : NULL;
         if (*why || !tc_name_make(name, sizeof name, f->pattern, &values, why, sizeof why)) {
             tc_talk_error(talk, "--output %s: %s", f->pattern, why);
             return TC_EXIT_USAGE;
         }
-        if (!(f->frame[i].file = strdup(name)))
+        f->frame[i].file = pair ? tc_batch_eye_file(f, base, scene, i, 0) : strdup(name);
+        if (!f->frame[i].file)
             return tc_no_memory(talk);
         f->frame[i].state = tc_plan_mine(&f->plan, i) ? TC_STATE_TO_DO : TC_STATE_OTHER;
         if ((o->scene_path && tc_same_file(o->scene_path, name)) || tc_same_file(o->input, name)) {

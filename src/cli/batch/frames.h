@@ -46,6 +46,9 @@ size_t tc_batch_view_of(const tc_batch_frames *frames, const tc_plan_frame *plac
 /* What stands in a frame's name and title. field: as it is called in the file. */
 tc_name_values tc_batch_values(const tc_batch_frames *frames, const tc_batch_base *base, const tc_batch_scene *scene,
                                size_t frame);
+/* The file of an eye's picture, of a stereo pair (0 left, 1 right); from malloc; NULL: memory ran out. */
+char *tc_batch_eye_file(const tc_batch_frames *frames, const tc_batch_base *base, const tc_batch_scene *scene,
+                        size_t frame, int eye);
 /* The camera of a view where the box is another than the base's. -1, or an exit code. */
 int tc_batch_view_camera(tc_camera *out, const tc_batch_frames *frames, const tc_batch_scene *scene, size_t view,
                          const double bounds[6], tc_talk *talk);

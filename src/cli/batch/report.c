@@ -154,19 +154,32 @@ static void tc_failures_list(const tc_report *r, size_t left)
         fprintf(stderr, "  and %zu that were not begun\n", left);
 }
 
-void tc_report_end(tc_report *r, const char *stopped)
+/* What was made, how fast, and within which memory [MiB]. */
+static void tc_summary_say(const tc_report *r, double seconds, double self, double helper)
 {
     char took[64], kept[64] = "";
+    tc_duration_text(took, sizeof took, seconds);
+    if (r->all == 0) {
+        tc_talk_say(r->talk, "none of the frames is of this shard: there are fewer of them than shards");
+        return;
+    }
+    if (r->kept == r->all) {
+        tc_talk_say(r->talk, "all %zu frames are there, so none is made; at most %.1f MiB of memory, helpers %.1f MiB", r->all,
+                    self, helper);
+        return;
+    }
+    if (r->kept)
+        snprintf(kept, sizeof kept, ", %zu were there", r->kept);
+    tc_talk_say(r->talk, "%zu of %zu frames made%s, in %s (%.3g a minute); at most %.1f MiB of memory, helpers %.1f MiB",
+                r->done, r->all, kept, took, 60 * (double)r->done / fmax(seconds, 1e-9), self, helper);
+}
+
+void tc_report_end(tc_report *r, const char *stopped)
+{
     const double seconds = tc_talk_clock_s() - r->start_s;
     size_t self = 0, helper = 0;
     tc_memory_peak(&self, &helper);
-    tc_duration_text(took, sizeof took, seconds);
-    if (r->kept)
-        snprintf(kept, sizeof kept, ", %zu were there", r->kept);
-    tc_talk_say(r->talk,
-                "%zu of %zu frames made%s, in %s (%.3g a minute); at most %.1f MiB of memory, helpers %.1f MiB",
-                r->done, r->all, kept, took, 60 * (double)r->done / fmax(seconds, 1e-9), (double)self / 1048576,
-                (double)helper / 1048576);
+    tc_summary_say(r, seconds, (double)self / 1048576, (double)helper / 1048576);
     tc_failures_list(r, stopped ? 0 : r->all - tc_report_count(r));
     if (stopped)
         tc_talk_error(r->talk, "stopped by %s after %zu of %zu frames: the same command with --resume goes on", stopped,

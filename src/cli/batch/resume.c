@@ -3,6 +3,7 @@
 #include "cli/batch/digest.h"
 #include "cli/batch/frames.h"
 #include "cli/picture/numbers.h"
+#include "cli/picture/stereo_options.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -85,13 +86,13 @@ static bool tc_file_holds(const char *path, const char *text, tc_image_writer *w
 {
     char *there = NULL;
     const bool whole = tc_image_check(&there, path, "tetcast:frame", writer, NULL) == TC_OK;
-    const bool same = whole && (!text || (there && !strcmp(there, text)));
+    const bool same = whole && there && !strcmp(there, text);
     free(there);
     return same;
 }
 
 /* The files beside a picture that this look makes. */
-static bool tc_beside_hold(const char *path, const tc_output_options *o, tc_image_writer *writer)
+static bool tc_beside_hold(const char *path, const char *text, const tc_output_options *o, tc_image_writer *writer)
 {
     bool good = true;
     const struct {
@@ -100,7 +101,7 @@ static bool tc_beside_hold(const char *path, const tc_output_options *o, tc_imag
     } beside[] = {{"depth", o->depth && tc_depth_is_apart(path)}, {"value", o->value}};
     for (size_t i = 0; i < sizeof beside / sizeof *beside && good; i++) {
         char *name = beside[i].there ? tc_numbers_path(path, beside[i].kind) : NULL;
-        good = !beside[i].there || (name && tc_file_holds(name, NULL, writer));
+        good = !beside[i].there || (name && tc_file_holds(name, text, writer));
         free(name);
     }
     return good;
@@ -130,8 +131,13 @@ int tc_batch_resume(tc_batch_frames *f, size_t *stale, const tc_batch_base *base
                 continue;
             const tc_output_options *o = &scene->look[place.field * scene->n_function + place.function].picture.out;
             char *text = tc_batch_frame_text(f, base, scene, i, data);
-            const bool same = text && *data && tc_file_holds(frame->file, text, writer) &&
-                              tc_beside_hold(frame->file, o, writer);
+            bool same = text && *data && tc_file_holds(frame->file, text, writer) &&
+                        tc_beside_hold(frame->file, text, o, writer);
+            if (same && o->stereo == TC_STEREO_PAIR) {
+                char *right = tc_batch_eye_file(f, base, scene, i, 1);
+                same = right && tc_file_holds(right, text, writer) && tc_beside_hold(right, text, o, writer);
+                free(right);
+            }
             free(text);
             frame->state = same ? TC_STATE_KEPT : TC_STATE_TO_DO;
             *stale += !same;

@@ -4,12 +4,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/batch/run.h"
 #include "cli/batch/digest.h"
-#include "cli/batch/folder.h"
+#include "cli/batch/frame.h"
 #include "cli/batch/stop.h"
 #include "cli/batch/writers.h"
-#include "cli/picture/numbers.h"
-#include "cli/picture/render_figure.h"
-#include "cli/picture/render_picture.h"
 #include "cli/picture/render_setup.h"
 
 #include <math.h>
@@ -17,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { TC_FAILED_MOST = 3, TC_WRITERS_MOST = 4, TC_ARGUMENTS = 256, TC_SAID = 64 };
+enum { TC_FAILED_MOST = 3, TC_WRITERS_MOST = 4, TC_SAID = 64 };
 
 typedef struct tc_run {
     tc_batch_frames *frames;
@@ -26,15 +23,10 @@ typedef struct tc_run {
     const tc_batch_scene *scene;
     tc_report *report;
     tc_talk *talk;
+    tc_frame_kit kit;
     tc_writers *writers;
     size_t room;
-    tc_frames renderer;
     tc_render_run *kept; /* [looks] function and look of each */
-    char *argument[TC_ARGUMENTS]; /* the command that the pictures name */
-    int n_argument;
-    char data[512];       /* identity of the file at hand */
-    size_t empty;         /* pictures in which nothing is seen */
-    char empty_why[1024];
     uint64_t said[TC_SAID]; /* warnings that were printed lately */
     size_t n_said;
     int failed_in_a_row;  /* writes */
@@ -142,119 +134,19 @@ static int tc_memory_bound(tc_run *r, const tc_render_run *run)
 
 /* ---------------------------------------------------------------------------------------------------------- frames */
 
-/* The command that a picture names: what makes it what it is, not how the run went. */
-static int tc_arguments_make(tc_run *r)
+/* Makes a frame and hands it to be written. -1, or the exit code of an error that was printed. */
+static int tc_frame_put(tc_run *r, const tc_render_run *base, size_t number)
 {
-    const tc_given_list *given = &r->scene->look[0].picture.given;
-    size_t n_key;
-    const tc_scene_key *key = tc_scene_keys(&n_key);
-    r->argument[r->n_argument++] = strdup("batch");
-    r->argument[r->n_argument++] = strdup(r->scene->path ? r->scene->path : r->scene->series.path[0]);
-    for (size_t i = 0; i < given->n && r->n_argument + 2 < TC_ARGUMENTS; i++) {
-        bool kept = false;
-        const char *name = given->item[i].option->name;
-        for (size_t k = 0; k < n_key; k++)
-            kept = kept || (key[k].option && key[k].role == TC_KEY_PICTURE && !strcmp(key[k].option, name));
-        if (!kept || given->item[i].called != name)
-            continue;
-        r->argument[r->n_argument++] = strdup(name);
-        r->argument[r->n_argument++] = strdup(given->item[i].text ? given->item[i].text : "");
-    }
-    for (int i = 0; i < r->n_argument; i++)
-        if (!r->argument[i])
-            return tc_no_memory(r->talk);
-    return -1;
-}
-
-/* The title with its placeholders filled, in the options and among what was given, so that the picture made again has it.
- * title [1024]. */
-static void tc_title_fill(tc_render_command *options, tc_given_list *given, char *title, const tc_name_values *values)
-{
-    char why[256];
-    if (!options->look.title || !tc_name_uses(options->look.title, why, sizeof why) ||
-        !tc_name_make(title, 1024, options->look.title, values, why, sizeof why))
-        return;
-    for (size_t i = 0; i < given->n; i++)
-        if (!strcmp(given->item[i].option->name, "--title"))
-            given->item[i].text = title;
-    options->look.title = title;
-}
-
-/* All files of a frame, from the picture that was rendered. */
-static int tc_files_make(tc_run *r, tc_frame_files *out, tc_render_run *run, size_t number)
-{
-    const char *file = r->frames->frame[number].file;
-    tc_picture_file own = {0};
-    *out = (tc_frame_files){.frame = number};
-    int code = tc_picture_dress(run, r->talk);
+    tc_frame_files files;
+    tc_written written;
+    int code = tc_frame_make(&files, &written, &r->kit, base, number);
     if (code < 0)
-        code = tc_picture_file_make(&own, run, file, r->n_argument, r->argument, r->talk);
-    if (code < 0)
-        code = tc_numbers_make(out->file, &out->n, &own, run, r->renderer.renderer, file, r->talk);
-    char *text = code < 0 ? tc_batch_frame_text(r->frames, r->base, r->scene, number, r->data) : NULL;
-    if (code < 0 && !text)
-        code = tc_no_memory(r->talk);
-    tc_meta_add(&own.meta, "tetcast:frame", text);
-    out->file[out->n++] = own;
-    return code < 0 ? tc_folders_make(file, r->talk) : code;
-}
-
-static void tc_empty_note(tc_run *r, const tc_render_run *run, size_t number)
-{
-    char why[640];
-    if (!tc_picture_is_empty(why, sizeof why, run))
-        return;
-    if (r->empty++ == 0)
-        snprintf(r->empty_why, sizeof r->empty_why, "%.300s: %s", r->frames->frame[number].file, why);
-}
-
-/* Does nothing of the view say how large the mesh is in the picture and where? Then it makes room for title and bar. */
-static bool tc_view_is_free(const tc_batch_scene *scene, size_t view)
-{
-    const unsigned own = TC_VIEW_POSITION | TC_VIEW_FOCAL_POINT | TC_VIEW_SCALE | TC_VIEW_ZOOM | TC_VIEW_CLIPPING |
-                         TC_VIEW_WINDOW;
-    const tc_views *views = &scene->views;
-    return views->kind != TC_VIEWS_PATH && (views->kind != TC_VIEWS_LIST || !(views->key[view].has & own));
-}
-
-/* A picture of the mesh, which holds its step and field, with a look that is set up. -1, or the exit code of an error that was
- * printed. */
-static int tc_frame_make(tc_run *r, const tc_render_run *base, size_t number)
-{
-    char title[1024];
-    const tc_plan_frame place = tc_plan_frame_at(&r->frames->plan, number);
-    const size_t view = tc_batch_view_of(r->frames, &place);
-    const tc_batch_command *look = &r->scene->look[place.field * r->scene->n_function + place.function];
-    const tc_name_values values = tc_batch_values(r->frames, r->base, r->scene, number);
-    tc_render_run run = *base;
-    tc_render_command options = *base->options;
-    tc_frame_files files = {.n = 0};
-    tc_given_list given = {.n = options.given.n, .item = malloc((options.given.n + 1) * sizeof *given.item)};
-    if (!given.item)
-        return tc_no_memory(r->talk);
-    memcpy(given.item, options.given.item, options.given.n * sizeof *given.item);
-    options.given = given;
-    run.options = &options;
-    tc_title_fill(&options, &given, title, &values);
-    run.camera = r->frames->view[view].camera;
-    int code = -1;
-    if (tc_camera_over(look) == TC_OVER_STEP)
-        code = tc_batch_view_camera(&run.camera, r->frames, r->scene, view, run.report.bounds, r->talk);
-    if (code < 0 && tc_view_is_free(r->scene, view))
-        code = tc_render_figure_fit(&run, r->talk);
-    if (code < 0)
-        code = tc_picture_render(&run, &r->renderer, r->talk);
-    if (code < 0) {
-        tc_empty_note(r, &run, number);
-        code = tc_memory_bound(r, &run);
-    }
-    if (code < 0)
-        code = tc_files_make(r, &files, &run, number);
-    if (code < 0 && !tc_writers_put(r->writers, &files))
+        code = tc_memory_bound(r, base);
+    if (code < 0 && files.n == 0)
+        code = tc_written_note(r, &written);
+    else if (code < 0 && !tc_writers_put(r->writers, &files))
         code = tc_no_memory(r->talk);
     tc_frame_files_finish(&files);
-    tc_image_destroy(&run.image);
-    free(given.item);
     return code;
 }
 
@@ -351,7 +243,7 @@ static int tc_function_make(tc_run *r, size_t position, size_t field, size_t fun
         if (!tc_to_do(r, i, field, function))
             continue;
         tc_report_bar(r->report, r->frames->frame[i].file);
-        code = tc_frame_make(r, &run, i);
+        code = tc_frame_put(r, &run, i);
         if (r->ended)
             return code;
         if (code >= 0) {
@@ -387,7 +279,7 @@ static int tc_load_make(tc_run *r, size_t position, size_t field)
         tc_report_failed(r->report, what, r->talk->last, n);
         return -1;
     }
-    tc_identity_make(r->data, sizeof r->data, load.path);
+    tc_identity_make(r->kit.data, sizeof r->kit.data, load.path);
     for (size_t k = 0; k < plan->n_function && code < 0 && !tc_stop_asked(); k++)
         code = tc_function_make(r, position, field, k, &load, &begin);
     return code;
@@ -399,15 +291,15 @@ static int tc_run_open(tc_run *r)
     const size_t looks = r->scene->n_field * r->scene->n_function;
     const long cores = first->source.threads > 0 ? first->source.threads : sysconf(_SC_NPROCESSORS_ONLN);
     const int n = cores >= 2 * TC_WRITERS_MOST ? TC_WRITERS_MOST : cores > 2 ? (int)cores / 2 : 1;
-    int code = tc_frames_make(&r->renderer, first, r->talk);
+    int code = tc_frames_make(&r->kit.renderer, first, r->talk);
     r->kept = calloc(looks, sizeof *r->kept);
     r->room = (size_t)n + 2;
     r->writers = code < 0 ? tc_writers_start(n, r->room) : NULL;
     if (code < 0 && (!r->kept || !r->writers))
         code = tc_no_memory(r->talk);
     if (code < 0)
-        code = tc_arguments_make(r);
-    return code < 0 ? tc_render_ready(&r->renderer, r->talk) : code;
+        code = tc_frame_kit_make(&r->kit);
+    return code < 0 ? tc_render_ready(&r->kit.renderer, r->talk) : code;
 }
 
 static void tc_run_close(tc_run *r)
@@ -418,16 +310,15 @@ static void tc_run_close(tc_run *r)
         tc_render_close(&r->kept[i]);
     }
     free(r->kept);
-    for (int i = 0; i < r->n_argument; i++)
-        free(r->argument[i]);
-    tc_frames_finish(&r->renderer);
+    tc_frame_kit_finish(&r->kit);
     tc_writers_stop(&r->writers);
 }
 
 int tc_batch_run(tc_batch_frames *frames, tc_batch_base *base, tc_catalogue *catalogue, const tc_batch_scene *scene,
                  tc_report *report, tc_talk *talk)
 {
-    tc_run r = {.frames = frames, .base = base, .catalogue = catalogue, .scene = scene, .report = report, .talk = talk};
+    tc_run r = {.frames = frames, .base = base, .catalogue = catalogue, .scene = scene, .report = report, .talk = talk,
+               .kit = {.frames = frames, .base = base, .scene = scene, .talk = talk}};
     size_t position = 0, field = 0;
     r.log = talk->log;
     talk->log = (tc_log){.message = tc_run_message, .progress = tc_run_progress, .user = &r};
@@ -442,9 +333,9 @@ int tc_batch_run(tc_batch_frames *frames, tc_batch_base *base, tc_catalogue *cat
         code = code < 0 ? ends : code;
     }
     talk->log = r.log;
-    if (r.empty > 0)
-        tc_talk_always(talk, "%zu %s: %s", r.empty, r.empty == 1 ? "picture is empty" : "pictures are empty, the first one",
-                       r.empty_why);
+    if (r.kit.empty > 0)
+        tc_talk_always(talk, "%zu %s: %s", r.kit.empty, r.kit.empty == 1 ? "picture is empty" : "pictures are empty, the first one",
+                       r.kit.empty_why);
     tc_run_close(&r);
     return code;
 }

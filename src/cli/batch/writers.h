@@ -4,7 +4,7 @@
 
 #include "cli/picture/render_write.h"
 
-enum { TC_FRAME_FILES = 5 };
+enum { TC_FRAME_FILES = 6 };
 
 /* The files of one frame, in the order in which they are written: the last one is there only when all are. */
 typedef struct tc_frame_files {

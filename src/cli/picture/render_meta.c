@@ -176,6 +176,7 @@ void tc_meta_make(tc_meta *out, const tc_render_run *run, int argc, char **argv)
     tc_meta_add(out, "tetcast:version", strdup(tc_version()));
     tc_meta_add(out, "tetcast:command", tc_command_text(argc, argv));
     tc_meta_add(out, "tetcast:scene", tc_scene_text(run));
+    tc_meta_add(out, "tetcast:frame", run->frame_text ? strdup(run->frame_text) : NULL);
     tc_meta_add(out, "tetcast:camera", tc_camera_text(&run->camera));
     tc_meta_add(out, "tetcast:transfer_function", tc_transfer_text(run));
     tc_meta_add(out, "tetcast:field", *field ? strdup(field) : NULL);

@@ -16,6 +16,7 @@ void tc_spread_of(tc_spread *out, double *value, size_t n);
 /* Everything that a run of `render` found out. */
 typedef struct tc_render_run {
     const tc_render_command *options;
+    const char *frame_text; /* "tetcast:frame" of the files: by which a batch knows them again; NULL: they have none */
     tc_mesh *mesh;
     tc_mesh_report report;
     tc_transfer *tf;
