@@ -134,8 +134,10 @@ int tc_talk_status(tc_talk *talk, tc_status status, const tc_error *err)
 int tc_talk_finish(tc_talk *talk, int code)
 {
     tc_line_clear(talk);
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        tc_talk_error(talk, "stdout could not be written: %s", strerror(errno));
+    const bool now = fflush(stdout) != 0; /* of what failed before the reason is not known any more */
+    if (now || ferror(stdout)) {
+        tc_talk_error(talk, "stdout could not be written%s%s", now ? ": " : "; its reader may have gone away",
+                      now ? strerror(errno) : "");
         return TC_EXIT_FAILED;
     }
     return talk->from && code == TC_EXIT_USAGE ? TC_EXIT_FAILED : code;
