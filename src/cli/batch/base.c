@@ -84,6 +84,7 @@ static int tc_first_open(tc_batch_base *out, const tc_batch_scene *scene, tc_tal
     tc_load load = tc_batch_load(out, scene, 0, 0);
     char why[sizeof talk->last];
     talk->muted = n > 1;
+    tc_identity_make(out->identity, sizeof out->identity, load.path);
     int first = tc_loader_open(&out->loader, source, &load, talk), code = first;
     memcpy(why, talk->last, sizeof why);
     for (int i = 1; i < n && code == TC_EXIT_FAILED; i++) {
@@ -91,6 +92,7 @@ static int tc_first_open(tc_batch_base *out, const tc_batch_scene *scene, tc_tal
         load.step = series->of_files ? load.step : i;
         out->first = i;
         tc_loader_finish(&out->loader);
+        tc_identity_make(out->identity, sizeof out->identity, load.path);
         code = tc_loader_open(&out->loader, source, &load, talk);
     }
     talk->muted = false;

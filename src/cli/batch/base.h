@@ -4,6 +4,7 @@
 #define TC_CLI_BATCH_BASE_H
 
 #include "cli/batch/batch_scene.h"
+#include "cli/batch/digest.h"
 #include "cli/batch/load.h"
 
 typedef struct tc_batch_base {
@@ -12,6 +13,7 @@ typedef struct tc_batch_base {
     double *time;  /* [n_step]; NAN: none */
     tc_loader loader; /* holds the first step, of the first field */
     int first;        /* that step: number 0, or, where that cannot be read, one after it */
+    char identity[TC_IDENTITY]; /* of its file before it was read */
     double bounds[6]; /* the box that cameras see: of the first step, or of all */
     double unit[2];   /* of the first step; of all */
     size_t n_field;

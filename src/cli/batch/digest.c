@@ -36,9 +36,12 @@ void tc_identity_make(char *out, size_t capacity, const char *path)
     int used = snprintf(out, capacity, "%s %lld %lld.%09ld", name, (long long)info.st_size,
                         (long long)info.st_mtim.tv_sec, (long)info.st_mtim.tv_nsec);
     tc_cache_key key;
-    if ((S_ISDIR(info.st_mode) || tc_is_of_many(path)) && used > 0 && (size_t)used < capacity &&
-        tc_cache_key_make(&key, path, NULL, NULL, NULL) == TC_OK)
+    if (used <= 0 || (size_t)used >= capacity || (!S_ISDIR(info.st_mode) && !tc_is_of_many(path)))
+        return;
+    if (tc_cache_key_make(&key, path, NULL, NULL, NULL) == TC_OK)
         snprintf(out + used, capacity - (size_t)used, " %016" PRIx64 "%016" PRIx64, key.word[0], key.word[1]);
+    else
+        *out = 0; /* files that it names may change unseen */
 }
 
 /* Says where, when or how fast, not what is seen. */

@@ -5,6 +5,8 @@
 
 #include "cli/picture/render_options.h"
 
+enum { TC_IDENTITY = 512 }; /* bytes that are enough for one */
+
 /* A file as it is: name, size and time of its last change; of a dataset of several files (EnSight, OpenFOAM, PVD and
  * the like) also those of the files in and below its folder, as tc_cache_key_make. "" in out [capacity]: it cannot be
  * told. */

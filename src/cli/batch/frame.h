@@ -16,7 +16,7 @@ typedef struct tc_frame_kit {
     tc_frames renderer;
     char *argument[TC_FRAME_ARGUMENTS]; /* the command that pictures name */
     int n_argument;
-    char data[512];       /* identity of the file that the mesh is from */
+    char data[TC_IDENTITY]; /* identity of the file that the mesh is from; "": it changed while it was read */
     size_t empty;         /* pictures in which nothing is seen, so far */
     char empty_why[1024]; /* the first of them, and why */
     tc_talk *talk;

@@ -112,7 +112,7 @@ int tc_batch_resume(tc_batch_frames *f, size_t *stale, const tc_batch_base *base
 {
     tc_image_writer *writer = NULL;
     tc_error err = {0};
-    char data[512] = "";
+    char data[TC_IDENTITY] = "";
     *stale = 0;
     tc_status status = tc_image_writer_create(&writer, &err);
     if (status)
@@ -121,7 +121,8 @@ int tc_batch_resume(tc_batch_frames *f, size_t *stale, const tc_batch_base *base
         const tc_plan_span span = tc_plan_span_of(&f->plan, p);
         if (span.n == 0)
             continue;
-        tc_identity_make(data, sizeof data, tc_batch_load(base, scene, f->plan.step[p], 0).path);
+        if (!*data || scene->series.of_files) /* one file's is the same for all steps */
+            tc_identity_make(data, sizeof data, tc_batch_load(base, scene, f->plan.step[p], 0).path);
         for (size_t i = span.first; i < span.first + span.n; i++) {
             tc_batch_frame *frame = &f->frame[i];
             const tc_plan_frame place = tc_plan_frame_at(&f->plan, i);

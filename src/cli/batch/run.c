@@ -29,9 +29,12 @@ typedef struct tc_run {
     tc_render_run *kept; /* [looks] function and look of each */
     uint64_t said[TC_SAID]; /* warnings that were printed lately */
     size_t n_said;
+    char data_ahead[TC_IDENTITY]; /* of the file that is read ahead, from before */
+    size_t ahead_position, ahead_field;
+    bool is_ahead;
     int failed_in_a_row;  /* writes */
     bool bounded;         /* --memory was looked at */
-    bool ended;           /* by it: nothing more is made */
+    bool ended;           /* nothing more is made: by it, or by pictures that cannot be written */
     tc_log log;           /* of talk, before */
 } tc_run;
 
@@ -142,9 +145,10 @@ static int tc_frame_put(tc_run *r, const tc_render_run *base, size_t number)
     int code = tc_frame_make(&files, &written, &r->kit, base, number);
     if (code < 0)
         code = tc_memory_bound(r, base);
-    if (code < 0 && files.n == 0)
+    if (code < 0 && files.n == 0) {
         code = tc_written_note(r, &written);
-    else if (code < 0 && !tc_writers_put(r->writers, &files))
+        r->ended = code >= 0;
+    } else if (code < 0 && !tc_writers_put(r->writers, &files))
         code = tc_no_memory(r->talk);
     tc_frame_files_finish(&files);
     return code;
@@ -188,7 +192,30 @@ static void tc_next_begin(tc_run *r, size_t position, size_t field)
     if (!tc_next_load(r, &position, &field))
         return;
     const tc_load load = tc_batch_load(r->base, r->scene, r->frames->plan.step[position], field);
+    r->is_ahead = true;
+    r->ahead_position = position;
+    r->ahead_field = field;
+    tc_identity_make(r->data_ahead, sizeof r->data_ahead, load.path);
     tc_loader_begin(&r->base->loader, &load);
+}
+
+/* The mesh of a load. What its file is was told before it was read, and must be so after. */
+static int tc_load_get(tc_run *r, size_t position, size_t field, const tc_load *load)
+{
+    char after[TC_IDENTITY];
+    bool fresh;
+    const tc_batch_base *base = r->base;
+    if (r->is_ahead && r->ahead_position == position && r->ahead_field == field)
+        memcpy(r->kit.data, r->data_ahead, sizeof r->kit.data);
+    else if (!r->is_ahead && load->number == base->first && field == 0) /* which is there already */
+        memcpy(r->kit.data, base->identity, sizeof r->kit.data);
+    else
+        tc_identity_make(r->kit.data, sizeof r->kit.data, load->path);
+    int code = tc_loader_get(&r->base->loader, &fresh, load, r->talk);
+    tc_identity_make(after, sizeof after, load->path);
+    if (strcmp(r->kit.data, after) != 0)
+        *r->kit.data = 0;
+    return code;
 }
 
 /* The range that the function is laid over. */
@@ -249,7 +276,7 @@ static int tc_function_make(tc_run *r, size_t position, size_t field, size_t fun
         if (code >= 0) {
             tc_frame_fail(r, i, r->talk->last);
             code = -1;
-        } else {
+        } else if (r->frames->frame[i].state == TC_STATE_TO_DO) {
             r->frames->frame[i].state = TC_STATE_DONE; /* or, once it could not be written, failed */
         }
         int ends = tc_written_take(r, false);
@@ -263,9 +290,9 @@ static int tc_load_make(tc_run *r, size_t position, size_t field)
 {
     const tc_plan *plan = &r->frames->plan;
     const tc_load load = tc_batch_load(r->base, r->scene, plan->step[position], field);
-    bool fresh, begin = true;
+    bool begin = true;
     snprintf(r->talk->about, sizeof r->talk->about, "step %d", load.number);
-    int code = tc_loader_get(&r->base->loader, &fresh, &load, r->talk);
+    int code = tc_load_get(r, position, field, &load);
     if (code >= 0) { /* told; the others go on */
         const tc_plan_span span = tc_plan_span_of(plan, position);
         size_t n = 0;
@@ -279,7 +306,6 @@ static int tc_load_make(tc_run *r, size_t position, size_t field)
         tc_report_failed(r->report, what, r->talk->last, n);
         return -1;
     }
-    tc_identity_make(r->kit.data, sizeof r->kit.data, load.path);
     for (size_t k = 0; k < plan->n_function && code < 0 && !tc_stop_asked(); k++)
         code = tc_function_make(r, position, field, k, &load, &begin);
     return code;
