@@ -74,8 +74,8 @@ static int tc_times_take(tc_batch_base *out, const tc_batch_scene *scene, tc_tal
     return -1;
 }
 
-/* The first step that can be read: of a series the first such file; a dataset with steps of its own is asked for a few. Those
- * before it are told of when it is their turn. */
+/* The first step that can be read: of a series the first such file; a dataset with steps of its own is asked for a
+ * few. Those before it are told of when it is their turn. */
 static int tc_first_open(tc_batch_base *out, const tc_batch_scene *scene, tc_talk *talk)
 {
     const tc_series *series = &scene->series;
@@ -186,8 +186,8 @@ static void tc_pass_begin(tc_batch_base *base, const tc_pass *pass)
 }
 
 /* One pass over step [n]. */
-static int tc_survey_run(tc_batch_base *base, const tc_batch_scene *scene, const tc_pass *pass, const int *step, size_t n,
-                         tc_talk *talk)
+static int tc_survey_run(tc_batch_base *base, const tc_batch_scene *scene, const tc_pass *pass, const int *step,
+                         size_t n, tc_talk *talk)
 {
     tc_error err = {0};
     const double first[6] = {base->bounds[0], base->bounds[1], base->bounds[2],

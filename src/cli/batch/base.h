@@ -22,8 +22,8 @@ typedef struct tc_batch_base {
     double ms_survey;       /* NAN: none was needed */
 } tc_batch_base;
 
-/* Reads the first step that can be read, and says what its reader noted. -1, or the exit code of an error that was printed; whatever it is,
- * tc_batch_base_finish frees what is there. */
+/* Reads the first step that can be read, and says what its reader noted. -1, or the exit code of an error that was
+ * printed; whatever it is, tc_batch_base_finish frees what is there. */
 int tc_batch_base_open(tc_batch_base *out, const tc_batch_scene *scene, tc_talk *talk);
 /* Ranges, unit and box, with a pass over step [n] of the dataset where the options ask for what all of them have. A step that
  * cannot be read is left out of it. The same codes. */
@@ -36,8 +36,8 @@ void tc_batch_base_finish(tc_batch_base *base);
 tc_over tc_range_over(const tc_batch_command *look);
 tc_over tc_unit_over(const tc_batch_command *look);
 tc_over tc_camera_over(const tc_batch_command *look);
-/* The range [2] of a look of this field, lo > hi: not found, and its unit distance; where they are found from the step itself,
- * those of the first. */
+/* The range [2] of a look of this field, lo > hi: not found, and its unit distance; where they are found from the step
+ * itself, those of the first. */
 const double *tc_base_range(const tc_batch_base *base, const tc_batch_command *look, size_t field);
 double tc_base_unit(const tc_batch_base *base, const tc_batch_command *look);
 

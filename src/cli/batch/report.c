@@ -164,8 +164,8 @@ static void tc_summary_say(const tc_report *r, double seconds, double self, doub
         return;
     }
     if (r->kept == r->all) {
-        tc_talk_say(r->talk, "all %zu frames are there, so none is made; at most %.1f MiB of memory, helpers %.1f MiB", r->all,
-                    self, helper);
+        tc_talk_say(r->talk, "all %zu frames are there, so none is made; at most %.1f MiB of memory, helpers %.1f MiB",
+                    r->all, self, helper);
         return;
     }
     if (r->kept)

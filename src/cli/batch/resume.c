@@ -51,7 +51,9 @@ static void tc_digest_of(char out[17], const tc_batch_frames *f, const tc_batch_
     json_object_set_new(json, "view", json_integer((json_int_t)tc_batch_view_of(f, place)));
     json_object_set_new(json, "phi", tc_json_reals(&view->phi, 1));
     json_object_set_new(json, "theta", tc_json_reals(&view->theta, 1));
-    json_object_set_new(json, "range", o->has_range ? json_null() : tc_found(tc_range_over(look), tc_base_range(base, look, place->field), 2));
+    json_object_set_new(json, "range",
+                        o->has_range ? json_null()
+                                     : tc_found(tc_range_over(look), tc_base_range(base, look, place->field), 2));
     json_object_set_new(json, "unit", tc_found(tc_unit_over(look), &unit, 1));
     json_object_set_new(json, "depth", json_boolean(o->out.depth));
     json_object_set_new(json, "value", json_boolean(o->out.value));
