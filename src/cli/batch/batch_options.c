@@ -63,7 +63,8 @@ const tc_command tc_command_batch = {
         "SCENE is a scene file (.json) whose keys are these options; with lists of data files, fields, transfer "
         "functions and views it stands for a picture of each combination. It may be a dataset, too: all its steps "
         "are shown. Names of pictures have placeholders: {step:06d}, {time}, {phi}, {theta}, {view}, {tf}, {field}, "
-        "{frame}, or %04d.",
+        "{frame}, or %04d; so has -o here, which takes no -. Of the options of render those that are of one picture are "
+        "refused: --error-image, --repeat, --stats and --frame-time.",
     .own = tc_batch_option,
     .n_own = sizeof tc_batch_option / sizeof *tc_batch_option,
     .option = tc_render_option,
@@ -105,7 +106,14 @@ int tc_batch_command_take(tc_batch_command *out, const tc_scene_at *at, tc_talk 
 {
     *out = (tc_batch_command){.fps = 25};
     int code = tc_picture_command_take(&out->picture, at, talk, &tc_command_batch, argc, argv);
-    return code < 0 ? tc_batch_check(out, talk) : code;
+    if (code >= 0)
+        return code;
+    const char *from = talk->from;
+    talk->from = NULL; /* each refusal says by itself where it is from */
+    code = tc_batch_check(out, talk);
+    if (code < 0)
+        talk->from = from;
+    return code;
 }
 
 void tc_batch_command_finish(tc_batch_command *command)

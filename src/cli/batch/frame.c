@@ -93,15 +93,6 @@ static void tc_empty_note(tc_frame_kit *k, const tc_render_run *run, size_t numb
         snprintf(k->empty_why, sizeof k->empty_why, "%.300s: %s", k->frames->frame[number].file, why);
 }
 
-/* Does nothing of the view say how large the mesh is in the picture and where? Then it makes room for title and bar. */
-static bool tc_view_is_free(const tc_batch_scene *scene, size_t view)
-{
-    const unsigned own = TC_VIEW_POSITION | TC_VIEW_FOCAL_POINT | TC_VIEW_SCALE | TC_VIEW_ZOOM | TC_VIEW_CLIPPING |
-                         TC_VIEW_WINDOW;
-    const tc_views *views = &scene->views;
-    return views->kind != TC_VIEWS_PATH && (views->kind != TC_VIEWS_LIST || !(views->key[view].has & own));
-}
-
 /* One eye's picture, or the only one. */
 static int tc_eye_make(tc_frame_kit *k, tc_frame_files *files, tc_render_run *run, size_t number, const char *path)
 {
@@ -177,7 +168,7 @@ int tc_frame_make(tc_frame_files *files, tc_written *written, tc_frame_kit *k, c
     run.camera = k->frames->view[view].camera;
     if (code < 0 && tc_camera_over(look) == TC_OVER_STEP)
         code = tc_batch_view_camera(&run.camera, k->frames, k->scene, view, run.report.bounds, k->talk);
-    if (code < 0 && tc_view_is_free(k->scene, view))
+    if (code < 0 && tc_view_is_free(&k->scene->views, view))
         code = tc_render_figure_fit(&run, k->talk);
     const bool large = (int64_t)options.size.width * options.size.height > TC_WAITING_PIXELS && tc_bands_asked(&options);
     if (code < 0)

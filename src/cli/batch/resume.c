@@ -32,6 +32,29 @@ static json_t *tc_camera_json(const tc_camera *c)
     return json;
 }
 
+/* A camera that each step's box gives anew is known by what it makes of two boxes, which are always the same. */
+static json_t *tc_camera_rule_json(const tc_batch_frames *f, const tc_batch_scene *scene, size_t view)
+{
+    static const double box[2][6] = {{-0.731, 1.377, -1.113, 0.859, -0.271, 2.903}, {3.19, 11.7, -5.33, -0.71, 2.41, 4.07}};
+    tc_talk silent = {.muted = true};
+    json_t *json = json_array();
+    for (int i = 0; i < 2; i++) {
+        tc_camera camera;
+        const bool good = tc_batch_view_camera(&camera, f, scene, view, box[i], &silent) < 0;
+        json_array_append_new(json, good ? tc_camera_json(&camera) : json_null());
+    }
+    return json;
+}
+
+/* The title, where it tells of more than the text that was given: of the frame's number, say. */
+static void tc_title_add(json_t *json, const char *pattern, const tc_name_values *values)
+{
+    char title[1024], why[256];
+    if (pattern && tc_name_uses(pattern, why, sizeof why) &&
+        tc_name_make(title, sizeof title, pattern, values, why, sizeof why))
+        tc_json_text(json, "title", title);
+}
+
 static void tc_digest_of(char out[17], const tc_batch_frames *f, const tc_batch_base *base,
                          const tc_batch_scene *scene, const tc_plan_frame *place, const tc_name_values *values,
                          const char *data)
@@ -39,7 +62,7 @@ static void tc_digest_of(char out[17], const tc_batch_frames *f, const tc_batch_
     const tc_batch_command *look = &scene->look[place->field * scene->n_function + place->function];
     const tc_render_command *o = &look->picture;
     const double unit = o->unit_distance > 0 ? o->unit_distance : tc_base_unit(base, look);
-    const tc_batch_view *view = &f->view[tc_batch_view_of(f, place)];
+    const size_t view = tc_batch_view_of(f, place);
     json_t *json = tc_digest_options(o);
     tc_json_text(json, "tetcast", tc_version());
     tc_json_text(json, "data", data);
@@ -47,16 +70,15 @@ static void tc_digest_of(char out[17], const tc_batch_frames *f, const tc_batch_
     json_object_set_new(json, "time", tc_json_reals(&values->time, 1));
     tc_json_text(json, "field", values->field);
     json_object_set_new(json, "camera",
-                        tc_camera_over(look) == TC_OVER_STEP ? json_string("step") : tc_camera_json(&view->camera));
-    json_object_set_new(json, "view", json_integer((json_int_t)tc_batch_view_of(f, place)));
-    json_object_set_new(json, "phi", tc_json_reals(&view->phi, 1));
-    json_object_set_new(json, "theta", tc_json_reals(&view->theta, 1));
+                        tc_camera_over(look) == TC_OVER_STEP ? tc_camera_rule_json(f, scene, view)
+                                                             : tc_camera_json(&f->view[view].camera));
+    json_object_set_new(json, "free", json_boolean(tc_view_is_free(&scene->views, view)));
+    tc_title_add(json, o->look.title, values);
     json_object_set_new(json, "range",
                         o->has_range ? json_null()
                                      : tc_found(tc_range_over(look), tc_base_range(base, look, place->field), 2));
     json_object_set_new(json, "unit", tc_found(tc_unit_over(look), &unit, 1));
-    json_object_set_new(json, "depth", json_boolean(o->out.depth));
-    json_object_set_new(json, "value", json_boolean(o->out.value));
+    json_object_set_new(json, "depth", json_boolean(o->out.depth && !tc_depth_is_apart(f->pattern)));
     json_object_set_new(json, "error", tc_json_reals(&o->error, 1));
     json_object_set_new(json, "verify", json_integer(o->has_verify ? (json_int_t)o->verify : 0));
     tc_digest_make(out, json);
@@ -75,7 +97,8 @@ char *tc_batch_frame_text(const tc_batch_frames *frames, const tc_batch_base *ba
     tc_json_real(json, "time", values.time);
     tc_json_real(json, "phi", values.phi);
     tc_json_real(json, "theta", values.theta);
-    tc_json_text(json, "view", values.view);
+    if (tc_view_is_named(&scene->views, tc_batch_view_of(frames, &place))) /* else it is a number among those asked for */
+        tc_json_text(json, "view", values.view);
     tc_json_text(json, "field", values.field);
     tc_json_text(json, "tf", values.tf);
     char *text = *digest ? json_dumps(json, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(17)) : NULL;

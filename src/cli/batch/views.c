@@ -23,12 +23,24 @@ int tc_views_check(const tc_views *views, size_t n_along, tc_talk *talk)
     return TC_EXIT_FAILED;
 }
 
+bool tc_view_is_named(const tc_views *views, size_t i)
+{
+    return i < views->n_name && views->name[i];
+}
+
 void tc_view_name(char *out, size_t capacity, const tc_views *views, size_t i)
 {
-    if (i < views->n_name && views->name[i])
+    if (tc_view_is_named(views, i))
         snprintf(out, capacity, "%s", views->name[i]);
     else
         snprintf(out, capacity, "%04zu", i + 1);
+}
+
+bool tc_view_is_free(const tc_views *views, size_t i)
+{
+    const unsigned own = TC_VIEW_POSITION | TC_VIEW_FOCAL_POINT | TC_VIEW_SCALE | TC_VIEW_ZOOM | TC_VIEW_CLIPPING |
+                         TC_VIEW_WINDOW;
+    return views->kind != TC_VIEWS_PATH && (views->kind != TC_VIEWS_LIST || !(views->key[i].has & own));
 }
 
 /* ------------------------------------------------------------------------------------------------------- vectors */

@@ -97,6 +97,11 @@ int tc_views_check(const tc_views *views, size_t n_along, tc_talk *talk);
 
 /* The view's name: what is given, else "0001" for view 0, and so on. out [capacity]: cut to fit. */
 void tc_view_name(char *out, size_t capacity, const tc_views *views, size_t i);
+/* Is it one that is given? */
+bool tc_view_is_named(const tc_views *views, size_t i);
+
+/* Does nothing of view i say how large the mesh is in the picture and where? Then it makes room for title and bar. */
+bool tc_view_is_free(const tc_views *views, size_t i);
 
 /* The camera of view i, below tc_views_count(views, n_along).
  *   phi, theta  degrees, of an orbit or a grid; else NAN; may be NULL

@@ -15,7 +15,7 @@ const char *tc_numbers_wrong(const tc_render_command *options)
     case TC_MODEL_MAXIMUM:
     case TC_MODEL_MINIMUM:
     case TC_MODEL_AVERAGE:
-        return "with --model maximum, minimum and average nothing is opaque or clear, so there is no depth: leave --depth "
+        return "with --model mip, minip and average nothing is opaque or clear, so there is no depth: leave --depth "
                "and --value out, or take another model";
     case TC_MODEL_EMISSION:
         return "with --model emission nothing is opaque, so there is no depth: leave --depth and --value out, or take "

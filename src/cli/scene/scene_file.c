@@ -469,6 +469,8 @@ static int tc_option_take(const tc_scene_reader *r, const tc_scene_key *k, const
         return tc_refuse_many(r, k->section, k->key);
     if (!option)
         return tc_refuse_key(r, k->section, k->key);
+    if (json_is_array(value) && !*k->section && !strcmp(k->key, "field"))
+        return tc_refuse_many(r, k->section, k->key);
     if (!tc_type_fits(option, value))
         return tc_refuse_type(r, k->section, k->key, tc_type_wanted(option), value);
     const json_t *first = json_is_array(value) ? json_array_get(value, 0) : NULL;
