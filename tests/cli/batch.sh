@@ -121,6 +121,23 @@ one_line
 run 2 batch p.json --stats a.json
 one_line
 
+# One database holds all pictures: it begins where names begin to differ, or where the name says.
+cinema() { # cinema OUTPUT CDB FILE
+    rm -rf db
+    run 0 batch s.json --quiet --frames 1 -o "$1"
+    "$TC_CINEMA" "$2" --files >why || fail "$1: $(cat why)"
+    grep -q ",$3\$" "$2/data.csv" || fail "$1: $3 is not in data.csv: $(sed -n 2p "$2/data.csv")"
+}
+cinema "db/{tf}/{field}/{step}_{phi}.png" db/s.cdb warm/Temp/1_180.png
+cinema "db/all.cdb/{tf}/{field}{step}{phi}.png" db/all.cdb vir/Pres10.png
+cinema "db/a{{b.cdb/x_{tf}{field}{step}{phi}.png" "db/a{b.cdb" x_virPres10.png
+cinema "db/x/%02d{tf}{field}{phi}.png" db/x/s.cdb 00virTemp0.png
+run 2 batch s.json -o "db/{tf}.cdb/{field}{step}{phi}.png"
+says "all pictures are of one database"
+one_line
+run 0 batch s.json --quiet --frames 1 --stereo pair -o "db/{eye}/{tf}{field}{phi}.png"
+"$TC_CINEMA" db/s.cdb --files >why || fail "of two eyes: $(cat why)"
+
 # The scene may be a dataset; of files that belong together, of a pattern, of a list.
 {
     echo '<VTKFile type="Collection"><Collection>'
@@ -305,6 +322,23 @@ mkdir -p deep/er
 scene deep/s.json '{"data": "../run_%d.vtk", "output": {"file": "er/{step}.png", "size": [8, 8]}}'
 run 0 batch deep/s.json --quiet
 files deep/er 4
+
+# Files of several kinds whose steps are their own, where they are at hand: a step's picture is render's, and is made again.
+data=$TC_SOURCE/../shared/data/vol
+for dataset in "$data/mug.e" "$data/can_series/can_%d.hdf"; do
+    [ -d "$data" ] || continue
+    scene e.json '{"data": "'"$dataset"'", "frames": "0,2", "views": {"phi": [0, 60], "theta": [20]}, '"$out"'}'
+    for over in all first step; do
+        rm -rf e
+        run 0 batch e.json --quiet --range-over $over -o "e/{step}_{phi}_{theta}.png"
+        files e 4
+        for file in e/0_0_20.png e/2_60_20.png; do
+            run 0 render $file --quiet -o again.png
+            same_pixels $file again.png
+        done
+    done
+    other_pixels e/2_0_20.png e/2_60_20.png
+done
 
 # What a run does, for schedulers: an event a line, whose counts agree.
 run 0 batch s.json --json --frames 0:1 -o "j/{step}{field}{tf}{phi}.png"

@@ -106,6 +106,17 @@ run 0 batch s.json --quiet --frames 1::2 -o "b/$name"
 left b 12
 again b 12
 
+# Two eyes: a frame is finished when both are.
+run 0 batch s.json --quiet --frames 1 -o "e/$name" --stereo pair --depth=off --value=off
+truncate -s -5 e/s.cdb/1_two_120_right.png
+rm e/s.cdb/1_two_240_left.png
+run 0 batch s.json --resume --json --frames 1 -o "e/$name" --stereo pair --depth=off --value=off
+tail -1 out >line.json
+json line.json eq done 2 eq kept 4
+run 0 batch s.json --resume --json --frames 1 -o "e/$name" --stereo pair --eye-angle 3 --depth=off --value=off
+tail -1 out >line.json
+json line.json eq done 6
+
 # Moved to another place with its data.
 mkdir there
 mv s.json run_?.vtk opacity.json a there

@@ -120,6 +120,22 @@ there p/1.png
 there p/2.png
 absent p/0.png
 
+# A step of a series of files of another kind is cut short.
+data=$TC_SOURCE/../shared/data/vol/can_series
+if [ -d "$data" ]; then
+    mkdir can
+    for i in 0 1 2; do cp "$data/can_$i.hdf" can; done
+    truncate -s 20000 can/can_1.hdf
+    echo '{"data": "can/can_%d.hdf", "output": {"size": [64, 48]}, "method": {"driver": "pingpong"}}' >can.json
+    run 1 batch can.json --quiet -o "can/{step}.png"
+    sentences 2
+    says "step 1: can/can_1.hdf"
+    says "1 of 3 frames are missing:"
+    there can/0.png
+    there can/2.png
+    absent can/1.png
+fi
+
 # Its input goes while it runs.
 cp s.json t.json
 for i in $(seq 10 59); do cp run_3.vtk run_$i.vtk; done

@@ -220,6 +220,17 @@ static int tc_survey_run(tc_batch_base *base, const tc_batch_scene *scene, const
     return status == TC_E_MEMORY && !*err.text ? tc_no_memory(talk) : status ? tc_talk_status(talk, status, &err) : -1;
 }
 
+/* A range of one value is made one around it, as tc_transfer_create would: pictures of other steps, whose own range is
+ * another, name it as theirs. */
+static void tc_range_widen(double range[2])
+{
+    const double widen = range[0] != 0 ? fabs(range[0]) / 1024 : 0.5;
+    if (range[0] != range[1])
+        return;
+    range[0] -= widen;
+    range[1] += widen;
+}
+
 int tc_batch_base_survey(tc_batch_base *base, const tc_batch_scene *scene, const int *step, size_t n, tc_talk *talk)
 {
     const double start = tc_talk_clock_s();
@@ -242,6 +253,9 @@ int tc_batch_base_survey(tc_batch_base *base, const tc_batch_scene *scene, const
         if (code < 0 && (all.range || all.box || all.unit))
             code = tc_survey_run(base, scene, &all, step, n, talk);
     }
+    for (size_t i = 0; i < scene->n_field; i++)
+        for (int k = 0; k < 2; k++)
+            tc_range_widen(base->range[i][k]);
     base->ms_survey = 1e3 * (tc_talk_clock_s() - start);
     return code;
 }

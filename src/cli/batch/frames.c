@@ -157,30 +157,42 @@ static char *tc_default_pattern(const tc_batch_frames *f, const tc_batch_scene *
     return out;
 }
 
-/* The Cinema database's folder: the one that the pattern names, else STEM.cdb before its last part; the pattern then leads
- * into it. False: memory ran out. */
-static bool tc_database_place(tc_batch_frames *f, const tc_batch_scene *scene)
+/* The Cinema database's folder: the one that the pattern names, else STEM.cdb before the first part that differs between
+ * pictures; the pattern then leads into it. -1, or the exit code of an error that was printed. */
+static int tc_database_place(tc_batch_frames *f, const tc_batch_scene *scene, tc_talk *talk)
 {
-    char stem[480], *pattern = NULL;
-    for (char *c = f->pattern; (c = strcasestr(c, ".cdb/")) != NULL; c++)
-        if (c > f->pattern && c[-1] != '/') {
-            f->cdb = strndup(f->pattern, (size_t)(c - f->pattern) + 4);
-            return f->cdb != NULL;
-        }
+    char stem[480], why[256] = "", cdb[TC_PATH_ROOM], *pattern = NULL;
+    for (char *c = f->pattern; (c = strcasestr(c, ".cdb/")) != NULL; c++) {
+        if (c == f->pattern || c[-1] == '/')
+            continue;
+        const tc_name_values none = {0};
+        char *named = strndup(f->pattern, (size_t)(c - f->pattern) + 4);
+        const bool several = named && tc_name_uses(named, why, sizeof why) != 0;
+        const bool good = named && !several && tc_name_make(cdb, sizeof cdb, named, &none, why, sizeof why);
+        free(named);
+        if (good && (f->cdb = strdup(cdb)) != NULL)
+            return -1;
+        if (good || !named)
+            return tc_no_memory(talk);
+        tc_talk_error(talk, "--output %s: %s", f->pattern,
+                      several ? "all pictures are of one database: put what differs behind .cdb/" : why);
+        return TC_EXIT_USAGE;
+    }
     tc_input_stem(stem, sizeof stem, scene->path ? scene->path : scene->series.path[0]);
     for (char *c = stem; *c; c++)
         *c = strchr("{}%", *c) ? '_' : *c;
-    const char *slash = strrchr(f->pattern, '/'), *name = slash ? slash + 1 : f->pattern;
-    const int folder = (int)(name - f->pattern);
+    int folder = (int)strcspn(f->pattern, "{}%");
+    while (folder > 0 && f->pattern[folder - 1] != '/')
+        folder--;
     if (asprintf(&f->cdb, "%.*s%s.cdb", folder, f->pattern, stem) < 0) {
         f->cdb = NULL;
-        return false;
+        return tc_no_memory(talk);
     }
-    if (asprintf(&pattern, "%s/%s", f->cdb, name) < 0)
-        return false;
+    if (asprintf(&pattern, "%s/%s", f->cdb, f->pattern + folder) < 0)
+        return tc_no_memory(talk);
     free(f->pattern);
     f->pattern = pattern;
-    return true;
+    return -1;
 }
 
 /* A dimension with several values that the names do not tell; NULL: none. */
@@ -287,9 +299,11 @@ int tc_batch_frames_make(tc_batch_frames *f, const tc_batch_base *base, const tc
     if (code >= 0)
         return code;
     f->pattern = look->picture.output ? strdup(look->picture.output) : tc_default_pattern(f, scene);
-    if (!f->pattern || (look->cinema && !tc_database_place(f, scene)))
+    if (!f->pattern)
         return tc_no_memory(talk);
     code = tc_output_kind_check(f->pattern, talk);
+    if (code < 0 && look->cinema)
+        code = tc_database_place(f, scene, talk);
     return code < 0 ? tc_names_make(f, base, scene, talk) : code;
 }
 
