@@ -19,6 +19,17 @@ run 0 render "$@" -o whole.exr --repeat 1 --quiet
 run 0 compare bands.exr whole.exr --quiet
 run 0 render bands.png -o again.png --quiet
 same_pixels bands.png again.png
+# Rows and columns that bands and tiles do not divide: no row is there twice, none is left out.
+run 0 render $ball --size 1501x2803 --axes --quiet -o odd.png
+run 0 render $ball --size 1501x2803 --axes --quiet -o odd_whole.png --repeat 1
+same_pixels odd.png odd_whole.png
+run 0 render $ball --size 16411x131 --quiet -o odd.png
+run 0 render $ball --size 16411x131 --quiet -o odd_counted.png --stats odd.json
+same_pixels odd.png odd_counted.png
+# The rays' state is there once, also where the last band is smaller (twice it takes 500 MB).
+run 0 batch $ball --size 4100x4102 --json -o "{frame}.png"
+tail -1 out >line.json
+[ "$TC_SANITIZE" = ON ] || json line.json le peak_bytes 430e6
 # To stdout, transparent; as said by the words of a picture that is made at once.
 run 0 render $ball --size 1500x1500 -o - --quiet
 mv out stdout.png

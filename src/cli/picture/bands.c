@@ -1,5 +1,7 @@
 /* bands.c: pictures in bands. A band has the picture's whole width; where that is more than a GL texture has, it is put
- * together of tiles. Parts have the rays of the whole picture, bit by bit, so that no seam can show. */
+ * together of tiles. Parts have the rays of the whole picture, bit by bit, so that no seam can show. All parts are of one
+ * size, so that the rays' state is made once (the old one's memory is not free before a new one is used): where the rows do
+ * not divide, a band has one that is the next one's first, too. Where rays are counted, each is made once alone. */
 #include "cli/picture/bands.h"
 #include "cli/picture/bands_size.h"
 #include "cli/picture/render_figure.h"
@@ -21,7 +23,17 @@ typedef struct tc_bands {
     tc_image *band;          /* the one at hand */
     tc_image_stream *stream; /* from the first band on */
     double peak, ms_write;
+    bool exact; /* no row and no column is made twice */
 } tc_bands;
+
+/* Part i of n of a length, `*from` … `*to`; gives how much is rendered from *from on, which is the same for all parts unless
+ * exact. */
+static int tc_part_of(int *from, int *to, int length, int i, int n, bool exact)
+{
+    *from = (int)((long long)length * i / n);
+    *to = (int)((long long)length * (i + 1) / n);
+    return exact ? *to - *from : (length + n - 1) / n;
+}
 
 /* ------------------------------------------------------------------------------------------------------- rendering */
 
@@ -65,16 +77,17 @@ static int tc_band_render(tc_bands *b, int y, int rows, bool count)
             return tc_talk_status(b->talk, status, &err);
     }
     for (int i = 0; i < tiles && code < 0; i++) {
-        const int from = (int)((long long)width * i / tiles), to = (int)((long long)width * (i + 1) / tiles);
+        int from, to;
+        const int columns = tc_part_of(&from, &to, width, i, tiles, b->exact || count);
         tc_image *tile = NULL;
-        code = tc_part_render(&tile, b, (const int[]){from, y, to - from, rows}, count, y == 0 && i == 0);
+        code = tc_part_render(&tile, b, (const int[]){from, y, columns, rows}, count, y == 0 && i == 0);
         if (code < 0 && !count && tiles == 1) {
             b->band = tile;
             tile = NULL;
         }
         for (int row = 0; code < 0 && !count && tiles > 1 && row < rows; row++)
             memcpy(b->band->rgba + 4 * ((size_t)row * (size_t)width + (size_t)from),
-                   tile->rgba + 4 * (size_t)row * (size_t)tile->width, 4 * sizeof *tile->rgba * (size_t)tile->width);
+                   tile->rgba + 4 * (size_t)row * (size_t)tile->width, 4 * sizeof *tile->rgba * (size_t)(to - from));
         tc_image_destroy(&tile);
     }
     return code;
@@ -163,9 +176,12 @@ static int tc_bands_run(tc_bands *b, bool count, int argc, char **argv)
     const int most = TC_BAND_PIXELS / render->width, rows = most < TC_ONCE_SIDE ? most : TC_ONCE_SIDE;
     const int n = (render->height + rows - 1) / rows;
     int code = -1;
-    for (int i = 0; i < n && code < 0; i++) { /* of as many rows, but for one */
-        const int from = (int)((long long)render->height * i / n), to = (int)((long long)render->height * (i + 1) / n);
-        code = tc_band_render(b, from, to - from, count);
+    for (int i = 0; i < n && code < 0; i++) {
+        int from, to;
+        const int made = tc_part_of(&from, &to, render->height, i, n, b->exact || count);
+        code = tc_band_render(b, from, made, count);
+        if (code < 0 && !count)
+            b->band->height = to - from;
         if (i == 0 && !count)
             b->run->count = b->run->first; /* metadata ask for it */
         if (code < 0 && !count)
@@ -182,13 +198,17 @@ static int tc_bands_run(tc_bands *b, bool count, int argc, char **argv)
 int tc_bands_picture(tc_render_run *run, tc_frames *frames, tc_talk *talk, int argc, char **argv)
 {
     const tc_render_command *o = run->options;
-    tc_bands b = {.run = run, .renderer = frames->renderer, .talk = talk};
+    const bool counted = o->count || o->audit || o->stats;
+    tc_bands b = {.run = run,
+                  .renderer = frames->renderer,
+                  .talk = talk,
+                  .exact = counted || run->render.stepper == TC_STEPPER_PLANES};
     tc_error err = {0};
     char why[640];
     const tc_ink ink = run->ink;
     int code = tc_bands_run(&b, false, argc, argv);
     run->count = run->first;
-    if (code < 0 && (o->count || o->audit || o->stats) && (strcmp(run->first.driver, "reference") != 0 || o->audit)) {
+    if (code < 0 && counted && (strcmp(run->first.driver, "reference") != 0 || o->audit)) {
         code = tc_bands_run(&b, true, argc, argv);
         run->counted = code < 0;
     }
