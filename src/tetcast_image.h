@@ -43,7 +43,7 @@ TC_API tc_status tc_image_writer_expect(tc_image_writer *writer, const char *pat
 typedef struct tc_image_encoding {
     int bits;    /* a channel; PNG: 8 (default) or 16; EXR: 32 (default) or 16 (half); TIFF: 32; JPEG: 8 */
     int quality; /* JPEG: 1 to 100; 0: 95 */
-    int level;   /* PNG: zlib's, 1 (large) to 9 (slow); 0: 4; -1: not compressed */
+    int level;   /* PNG: zlib's, 1 (large) to 9 (slow); 0: runs alone, quick; -1: not compressed */
     const float *depth; /* [height][width], borrowed: channel Z of EXR, 32 bits, any values; refused of other formats; NULL: none */
 } tc_image_encoding;
 

@@ -1,6 +1,8 @@
 /* encoding.c: what formats image files have, and what each can hold. */
 #include "image/encoding.h"
 
+#include "image/png.h"
+
 #include <string.h>
 #include <strings.h>
 
@@ -21,7 +23,7 @@ static const struct {
 } extensions[] = {{"png", TC_PNG},   {"exr", TC_EXR},  {"tif", TC_TIFF},
                   {"tiff", TC_TIFF}, {"jpg", TC_JPEG}, {"jpeg", TC_JPEG}};
 
-enum { DEFAULT_LEVEL = 4, DEFAULT_QUALITY = 95 };
+enum { DEFAULT_LEVEL = TC_PNG_RUNS, DEFAULT_QUALITY = 95 };
 
 const char *tc_image_format_name(tc_image_format format)
 {

@@ -15,8 +15,8 @@ tc_status tc_image_format_of(tc_image_format *out, const char *path, tc_error *e
 /* The format of a file that begins with these bytes, of which 8 are enough; false: none of these. */
 bool tc_image_format_of_bytes(tc_image_format *out, const uint8_t *bytes, size_t n);
 
-/* What was asked for (NULL: nothing) with the format's defaults in place of zeros; level as zlib's. path is named in
- * errors. Errors: TC_E_ARG: the format has not that. */
+/* What was asked for (NULL: nothing) with the format's defaults in place of zeros; level as of tc_png_plan. path is
+ * named in errors. Errors: TC_E_ARG: the format has not that. */
 tc_status tc_image_encoding_fill(tc_image_encoding *out, tc_image_format format, const tc_image_encoding *asked,
                                  const char *path, tc_error *err);
 

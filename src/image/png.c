@@ -11,15 +11,20 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
 
-/* With the filter Sub alone: level 4 of zlib makes 50 KB of Blunt Fin in 512 x 512 in 6.6 ms; level 1 68 KB in 4.9,
- * level 6 45 KB in 10.7, all filters at level 6 43 KB in 15.5. */
+/* What libpng and zlib need for twenty renders of 512 x 512 in 8 bits, RGB and RGBA, and the mean size: Sub or Up,
+ * whichever leaves the smaller differences in the row, and runs alone (Z_RLE): 2.4 ms, 65 KB. Up alone and runs: 2.3
+ * ms, 71 KB; Sub, Up or Paeth and runs: 2.9 ms, 60 KB. Sub or Up at level 1 of zlib: 2.6 ms, 73 KB; at level 4: 4.7 ms,
+ * 57 KB. Sub alone at level 4: 4.7 ms, 67 KB. libpng's own choice of Sub or Up costs 1.1 ms more. */
 
 struct tc_png {
     png_structp png;
     png_infop info;
     int width, channels, bits;
-    uint8_t *row; /* one row of the file */
+    size_t pixel;         /* bytes */
+    uint8_t *row, *above; /* of the file: the next one, and the one before it */
+    bool filtered, below; /* below: a row was written */
     tc_png_sink *sink;
     void *context;
     tc_error *err; /* of the call under way */
@@ -107,6 +112,22 @@ static bool put_text(tc_png *e, const tc_text_pair *pair)
     return true;
 }
 
+/* How much of a row is left by Sub, and by Up: bytes as signed numbers, without their signs. */
+static unsigned amount(const uint8_t *row, const uint8_t *from, size_t n)
+{
+    unsigned sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += (unsigned)abs((int8_t)(row[i] - from[i]));
+    return sum;
+}
+
+static int better_filter(const tc_png *e)
+{
+    const size_t n = (size_t)e->width * e->pixel;
+    const unsigned up = amount(e->row, e->above, n);
+    return up == 0 || up <= amount(e->row + e->pixel, e->row, n - e->pixel) ? PNG_FILTER_UP : PNG_FILTER_SUB;
+}
+
 /* Each alone, since libpng's longjmp comes back to it. */
 static bool begin(tc_png *e, const tc_png_plan *plan)
 {
@@ -114,8 +135,11 @@ static bool begin(tc_png *e, const tc_png_plan *plan)
         return false;
     png_set_write_fn(e->png, e, on_bytes, on_flush);
     png_set_user_limits(e->png, TC_IMAGE_MAX_PIXELS, TC_IMAGE_MAX_PIXELS);
-    png_set_compression_level(e->png, plan->level);
-    png_set_filter(e->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_compression_level(e->png, plan->level == TC_PNG_RUNS ? 1 : plan->level);
+    if (plan->level == TC_PNG_RUNS)
+        png_set_compression_strategy(e->png, Z_RLE);
+    /* Up has to be among those of the first row, so that libpng keeps the row above. */
+    png_set_filter(e->png, PNG_FILTER_TYPE_BASE, e->filtered ? PNG_FILTER_SUB | PNG_FILTER_UP : PNG_FILTER_NONE);
     png_set_IHDR(e->png, e->info, (png_uint_32)plan->width, (png_uint_32)plan->height, plan->bits,
                  plan->opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -124,16 +148,22 @@ static bool begin(tc_png *e, const tc_png_plan *plan)
         if (!put_text(e, &plan->meta[i]))
             return false;
     free(e->row);
-    e->row = tc_alloc((size_t)e->width, (size_t)e->channels * (size_t)e->bits / 8);
-    e->out_of_memory = !e->row;
-    return e->row;
+    e->row = tc_alloc((size_t)e->width, e->pixel);
+    e->above = tc_alloc((size_t)e->width, e->pixel);
+    e->out_of_memory = !e->row || !e->above;
+    return !e->out_of_memory;
 }
 
 static bool put_row(tc_png *e)
 {
     if (setjmp(png_jmpbuf(e->png)))
         return false;
+    if (e->filtered && e->below)
+        png_set_filter(e->png, PNG_FILTER_TYPE_BASE, better_filter(e));
     png_write_row(e->png, e->row);
+    uint8_t *free_row = e->above;
+    e->above = e->row, e->row = free_row;
+    e->below = true;
     return true;
 }
 
@@ -164,6 +194,8 @@ tc_status tc_png_begin(tc_png **out, const tc_png_plan *plan, tc_error *err)
         return tc_fail_memory(err, "a PNG file", 1, sizeof *e);
     e->sink = plan->sink, e->context = plan->context, e->err = err;
     e->width = plan->width, e->bits = plan->bits, e->channels = plan->opaque ? 3 : 4;
+    e->pixel = (size_t)e->channels * (size_t)e->bits / 8;
+    e->filtered = plan->level != 0;
     e->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, e, on_error, on_warning);
     e->info = e->png ? png_create_info_struct(e->png) : NULL;
     tc_status status = result(e, e->info && begin(e, plan), err);
@@ -197,6 +229,7 @@ void tc_png_destroy(tc_png **png)
         return;
     png_destroy_write_struct(&(*png)->png, &(*png)->info);
     free((*png)->row);
+    free((*png)->above);
     free(*png);
     *png = NULL;
 }

@@ -17,7 +17,7 @@ typedef struct tc_output_options {
 /* clang-format off */
 #define TC_OUTPUT_AT(type, member, what) .at = offsetof(type, member) + offsetof(tc_output_options, what)
 #define TC_OUTPUT_ROWS(type, member)                                                                                   \
-    {"--png-level", 0, "N", "zlib's level, 0 (large, quick) to 9 (small, slow); default 4", TC_OPTION_INT,             \
+    {"--png-level", 0, "N", "zlib's level, 0 (large, quick) to 9 (small, slow); default runs alone", TC_OPTION_INT,   \
      TC_OUTPUT_AT(type, member, png_level), .low = 0, .high = 9},                                                      \
     {"--jpeg-quality", 0, "N", "1 to 100; default 95", TC_OPTION_INT, TC_OUTPUT_AT(type, member, jpeg_quality),        \
      .low = 1, .high = 100},                                                                                           \
