@@ -117,6 +117,11 @@ run 0 batch s.json --resume --json --frames 1 -o "e/$name" --stereo pair --eye-a
 tail -1 out >line.json
 json line.json eq done 6
 
+# A database names both.
+"$TC_CINEMA" e/s.cdb --files >why || fail "e: $(cat why)"
+[ "$(head -1 e/s.cdb/data.csv)" = time,phi,theta,field,tf,FILE,FILE_right ] || fail "the columns are $(head -1 e/s.cdb/data.csv)"
+grep -q ',1_two_120_left.png,1_two_120_right.png$' e/s.cdb/data.csv || fail "a row is not there: $(tail -1 e/s.cdb/data.csv)"
+
 # Moved to another place with its data.
 mkdir there
 mv s.json run_?.vtk opacity.json a there
@@ -134,7 +139,7 @@ run 0 batch s.json --quiet -o "one/$name"
 rm -rf one
 run 0 batch s.json --quiet -o "one/$name"
 files=$(find one -type f | wc -l)
-for pause in 0.05 0.21 0.12 0.3 0.17 0.08 0.25 0.15 0.1 0.19; do
+for pause in 0.05 0.21 0.12 0.3 0.17 0.08 0.25 0.15 0.1 0.19 0.7; do
     "$TETCAST" batch s.json --resume --quiet -o "k/$name" >out 2>err &
     job=$!
     sleep $pause

@@ -107,6 +107,7 @@ wrong "wrong.json:2: views stands for several pictures, which tetcast batch make
 "views": 7}'
 wrong "wrong.json:1: transfer_function stands for several pictures" '{"data": "synth:ball", "transfer_function": [{}]}'
 wrong "wrong.json:1: data stands for several pictures" '{"data": ["a.vtu", "b.vtu"]}'
+wrong "wrong.json:1: field stands for several pictures" '{"data": "synth:ball", "field": ["a", "b"]}'
 wrong "wrong.json:1: shell is not in this version" '{"data": "synth:ball", "shell": {}}'
 wrong "wrong.json:1: output.size takes WxH: each from 1 to 32768" '{"data": "synth:ball", "output": {"size": [0, 4]}}'
 wrong "wrong.json names no data: add \"data\": \"FILE\"" '{"field": "x"}'

@@ -46,7 +46,7 @@ static const tc_option tc_batch_option[] = {
     {.help = "Run"},
     {"--resume", 0, NULL, "keep frames that are finished and valid, make the others", TC_OPTION_FLAG, AT(resume)},
     {"--dry-run", 0, NULL, "list frames and bytes, make none", TC_OPTION_FLAG, AT(dry_run)},
-    {"--memory", 0, "SIZE", "stay below, as 4G: fewer pictures wait, steps are not read ahead; what cannot be done within it is refused", TC_OPTION_CUSTOM, AT(memory), .parse = tc_bytes_parse},
+    {"--memory", 0, "SIZE", "stay below, as 4G: fewer pictures wait, steps are not read ahead; a first picture that takes more is refused, a later one ends the batch", TC_OPTION_CUSTOM, AT(memory), .parse = tc_bytes_parse},
     {"--json", 0, NULL, "an event a line on stdout, as JSON", TC_OPTION_FLAG, AT(json)},
     {.help = "Databases and films"},
     {"--cinema", 0, NULL, "a Cinema database (Spec D): pictures and data.csv in NAME.cdb", TC_OPTION_FLAG, AT(cinema)},
@@ -63,8 +63,8 @@ const tc_command tc_command_batch = {
         "SCENE is a scene file (.json) whose keys are these options; with lists of data files, fields, transfer "
         "functions and views it stands for a picture of each combination. It may be a dataset, too: all its steps "
         "are shown. Names of pictures have placeholders: {step:06d}, {time}, {phi}, {theta}, {view}, {tf}, {field}, "
-        "{frame}, or %04d; so has -o here, which takes no -. Of the options of render those that are of one picture are "
-        "refused: --error-image, --repeat, --stats and --frame-time.",
+        "{frame}, or %04d; -o takes such a name here, and no -. --error-image, --repeat, --stats and --frame-time are of "
+        "one picture, and refused.",
     .own = tc_batch_option,
     .n_own = sizeof tc_batch_option / sizeof *tc_batch_option,
     .option = tc_render_option,

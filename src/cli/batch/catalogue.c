@@ -2,12 +2,13 @@
 #include "cli/batch/catalogue.h"
 #include "cli/batch/folder.h"
 #include "cli/picture/numbers.h"
+#include "cli/picture/stereo_options.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { TC_COLUMNS_MOST = 8 };
+enum { TC_COLUMNS_MOST = 9 };
 #define TC_SAVE_EVERY_S 5
 
 int tc_catalogue_open(tc_catalogue *out, const tc_batch_frames *frames, const tc_batch_scene *scene, tc_talk *talk)
@@ -22,6 +23,7 @@ int tc_catalogue_open(tc_catalogue *out, const tc_batch_frames *frames, const tc
     out->degrees = scene->views.kind != TC_VIEWS_LIST && scene->views.kind != TC_VIEWS_PATH;
     out->depth = o->depth && tc_depth_is_apart(frames->pattern);
     out->value = o->value;
+    out->pair = o->stereo == TC_STEREO_PAIR;
     column[n++] = (tc_cinema_column){"time", TC_CINEMA_FLOAT};
     if (out->degrees) {
         column[n++] = (tc_cinema_column){"phi", TC_CINEMA_FLOAT};
@@ -36,6 +38,8 @@ int tc_catalogue_open(tc_catalogue *out, const tc_batch_frames *frames, const tc
         column[n++] = (tc_cinema_column){"FILE_depth", TC_CINEMA_FILE};
     if (out->value)
         column[n++] = (tc_cinema_column){"FILE_value", TC_CINEMA_FILE};
+    if (out->pair)
+        column[n++] = (tc_cinema_column){"FILE_right", TC_CINEMA_FILE};
     out->saved_s = tc_talk_clock_s();
     const bool alone = scene->look[0].shard.of <= 1;
     int code = tc_folders_make(frames->frame[0].file, talk);
@@ -60,6 +64,7 @@ int tc_catalogue_add(tc_catalogue *c, const tc_batch_frames *frames, const tc_ba
     const char *file = frames->frame[frame].file;
     char view[64], *depth = c->depth ? tc_numbers_path(file, "depth") : NULL;
     char *value = c->value ? tc_numbers_path(file, "value") : NULL;
+    char *right = c->pair ? tc_batch_eye_file(frames, base, scene, frame, 1) : NULL;
     tc_cinema_value row[TC_COLUMNS_MOST] = {{0}};
     size_t n = 0;
     tc_error err = {0};
@@ -74,14 +79,20 @@ int tc_catalogue_add(tc_catalogue *c, const tc_batch_frames *frames, const tc_ba
     }
     row[n++].text = values.field;
     row[n++].text = values.tf;
-    row[n++].text = tc_within(frames, file);
-    if (c->depth && depth)
-        row[n++].text = tc_within(frames, depth);
-    if (c->value && value)
-        row[n++].text = tc_within(frames, value);
-    tc_status status = (c->depth && !depth) || (c->value && !value) ? TC_E_MEMORY : tc_cinema_add(c->cinema, row, &err);
+    const char *const name[] = {file, depth, value, right};
+    const bool there[] = {true, c->depth, c->value, c->pair};
+    tc_status status = TC_OK;
+    for (size_t i = 0; i < sizeof name / sizeof *name && status == TC_OK; i++) {
+        if (there[i] && !name[i])
+            status = TC_E_MEMORY;
+        else if (there[i])
+            row[n++].text = tc_within(frames, name[i]);
+    }
+    if (status == TC_OK)
+        status = tc_cinema_add(c->cinema, row, &err);
     free(depth);
     free(value);
+    free(right);
     if (status)
         return tc_talk_status(talk, status, &err);
     c->unsaved++;

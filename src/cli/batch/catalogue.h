@@ -9,6 +9,7 @@ typedef struct tc_catalogue {
     tc_cinema *cinema; /* NULL: none is asked for */
     bool degrees;      /* columns phi and theta; else one of views' names */
     bool depth, value;
+    bool pair;         /* a stereo pair: FILE_right is the right eye's */
     double saved_s;    /* when it was saved last */
     size_t unsaved;
 } tc_catalogue;

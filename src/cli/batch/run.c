@@ -34,6 +34,7 @@ typedef struct tc_run {
     bool is_ahead;
     int failed_in_a_row;  /* writes */
     bool bounded;         /* --memory was looked at */
+    bool alone;           /* a picture is written before another one is made */
     bool ended;           /* nothing more is made: by it, or by pictures that cannot be written */
     tc_log log;           /* of talk, before */
 } tc_run;
@@ -108,28 +109,70 @@ static int tc_written_take(tc_run *r, bool wait)
 
 /* ---------------------------------------------------------------------------------------------------------- memory */
 
-/* --memory, once a first picture shows what one takes: how many may wait, whether a step may be read ahead. */
-static int tc_memory_bound(tc_run *r, const tc_render_run *run)
+/* To encode images takes half of them at most; what else comes later; a helper program that writes images. */
+enum { TC_ENCODING = 2, TC_SLACK = 8 << 20, TC_HELPER = 120 << 20 };
+
+/* The images of a frame, which are there until they are written. */
+static double tc_files_bytes(const tc_frame_files *files)
 {
-    const uint64_t most = r->scene->look[0].memory;
+    double sum = 0;
+    for (int i = 0; i < files->n; i++) {
+        const tc_picture_file *file = &files->file[i];
+        sum += (16.0 + (file->depth ? 4.0 : 0.0)) * file->image->width * file->image->height;
+    }
+    return sum;
+}
+
+/* What a helper program takes that writes the largest of them: PNG needs none. */
+static double tc_files_helper(const tc_frame_files *files)
+{
+    double most = 0;
+    for (int i = 0; i < files->n; i++) {
+        const tc_picture_file *file = &files->file[i];
+        const char *dot = strrchr(file->path, '.');
+        if (!dot || strcmp(dot, ".png") != 0)
+            most = fmax(most, TC_HELPER + 16.0 * file->image->width * file->image->height);
+    }
+    return most;
+}
+
+static int tc_memory_end(tc_run *r, const char *what, double used)
+{
+    const double most = (double)r->scene->look[0].memory;
+    r->ended = true;
+    tc_talk_error(r->talk, "%s %.0f MiB of memory, and --memory is %.0f MiB: allow more, or make --size smaller", what,
+                  ceil(used / 1048576), most / 1048576);
+    return TC_EXIT_FAILED;
+}
+
+/* Was --memory enough so far? */
+static int tc_memory_check(tc_run *r)
+{
+    size_t self, helper;
+    tc_memory_peak(&self, &helper);
+    const double used = (double)self + (double)helper;
+    return r->bounded && used > (double)r->scene->look[0].memory ? tc_memory_end(r, "the batch takes", used) : -1;
+}
+
+/* --memory, once a first picture shows what one takes: how many may wait while others are made, whether a step may be read
+ * ahead. */
+static int tc_memory_bound(tc_run *r, const tc_render_run *run, const tc_frame_files *files)
+{
+    const double most = (double)r->scene->look[0].memory;
     size_t self, helper;
     if (most == 0 || r->bounded)
         return -1;
     r->bounded = true;
     tc_memory_peak(&self, &helper);
-    const double used = (double)self + (double)helper;
-    const double picture = 16.0 * run->options->size.width * run->options->size.height;
+    const double frame = tc_files_bytes(files);
     const double mesh = 220.0 * (double)run->report.n_tet; /* that moves: another one beside it while it is set up */
-    if (used > (double)most) {
-        tc_talk_error(r->talk, "a first picture takes %.0f MiB of memory, more than --memory, %.0f MiB: allow more, or make "
-                               "--size smaller",
-                      used / 1048576, (double)most / 1048576);
-        r->ended = true;
-        return TC_EXIT_FAILED;
-    }
-    const double left = (double)most - used;
-    r->base->loader.never_ahead = left < mesh + picture;
-    const double waiting = floor((left - (r->base->loader.never_ahead ? 0 : mesh)) / (2 * picture));
+    const double used = (double)self + fmax((double)helper, tc_files_helper(files)) + frame / TC_ENCODING + TC_SLACK;
+    if (used > most)
+        return tc_memory_end(r, "making a picture and writing it take", used);
+    const double left = most - used, each = frame + frame / TC_ENCODING;
+    r->base->loader.never_ahead = left < mesh + each;
+    const double waiting = frame > 0 ? floor((left - (r->base->loader.never_ahead ? 0 : mesh)) / each) : 0;
+    r->alone = waiting < 1;
     r->room = waiting < (double)r->room ? (waiting > 1 ? (size_t)waiting : 1) : r->room;
     tc_writers_set_room(r->writers, r->room);
     return -1;
@@ -144,7 +187,7 @@ static int tc_frame_put(tc_run *r, const tc_render_run *base, size_t number)
     tc_written written;
     int code = tc_frame_make(&files, &written, &r->kit, base, number);
     if (code < 0)
-        code = tc_memory_bound(r, base);
+        code = tc_memory_bound(r, base, &files);
     if (code < 0 && files.n == 0) {
         code = tc_written_note(r, &written);
         r->ended = code >= 0;
@@ -279,8 +322,9 @@ static int tc_function_make(tc_run *r, size_t position, size_t field, size_t fun
         } else if (r->frames->frame[i].state == TC_STATE_TO_DO) {
             r->frames->frame[i].state = TC_STATE_DONE; /* or, once it could not be written, failed */
         }
-        int ends = tc_written_take(r, false);
+        int ends = tc_written_take(r, r->alone);
         code = code < 0 ? ends : code;
+        code = code < 0 ? tc_memory_check(r) : code;
     }
     return code;
 }
