@@ -61,6 +61,7 @@ typedef struct tc_job {
     bool masked;                        /* only the pixels that state->mask marks have a ray */
     bool software;                      /* the renderer runs on the CPU: fetch.glsl, signs.glsl */
     const struct tc_effects *effects;   /* effect.h; NULL: none */
+    const struct tc_kept_view *kept;    /* kept.h: what the walks go along; NULL: rays are walked */
 } tc_job;
 
 typedef struct tc_job_result {

@@ -2,6 +2,7 @@
 #include "gpu/march.h"
 
 #include "gpu/effect.h"
+#include "gpu/kept.h"
 #include "gpu/pass.h"
 
 #include <stdio.h>
@@ -9,7 +10,7 @@
 
 enum { UNIT_NODES = 2, UNIT_TABLE = 8 };
 /* Of the paper's arithmetic, four each: as textures, and as images, of which there are fewer (stepper_planes.glsl). */
-enum { UNIT_PLANES = 12, IMAGE_PLANES = 4 };
+enum { UNIT_PLANES = 12, IMAGE_PLANES = 4, IMAGE_KEPT = 4 };
 enum { UNIT_PIECES = 10, UNIT_PIECE_FLOATS = 11, IMAGE_PIECES = 3, IMAGE_PIECE_FLOATS = 13 }; /* 8 to 12: compute.c */
 
 tc_status tc_march_program(GLuint *program, const tc_job *job, const char *vertex, const char *file, tc_error *err)
@@ -19,7 +20,7 @@ tc_status tc_march_program(GLuint *program, const tc_job *job, const char *verte
     tc_job_defines(defines, sizeof defines, job);
     size_t n = strlen(defines);
     bool range = effects && (effects->needs & TC_NEEDS_RANGE);
-    snprintf(defines + n, sizeof defines - n, "%s%s%s%s", vertex && job->software ? "#define RAYS_FLAT\n" : "",
+    snprintf(defines + n, sizeof defines - n, "%s%s%s%s", vertex && job->software && !job->kept ? "#define RAYS_FLAT\n" : "",
              range && !job->frame->clip_near ? "#define CLIP_NEAR\n" : "",
              range && !job->frame->clip_far ? "#define CLIP_FAR\n" : "", effects ? effects->defines : "");
     snprintf(alias, sizeof alias, "integrator.glsl=%s%s",
@@ -28,7 +29,9 @@ tc_status tc_march_program(GLuint *program, const tc_job *job, const char *verte
              : job->integrator == TC_INTEGRATOR_TABLE ? "integrate_table.glsl"
              : job->integrator == TC_INTEGRATOR_EXACT ? "integrate_exact.glsl"
                                                       : "integrate_integral.glsl",
-             job->planes ? " stepper.glsl=stepper_planes.glsl" : "");
+             job->planes ? " stepper.glsl=stepper_planes.glsl"
+             : job->kept ? " stepper.glsl=stepper_kept.glsl"
+                         : "");
     const tc_program_source source = {vertex, file, defines, alias, effects ? effects->shaders : NULL};
     return tc_program_get(program, job->programs, &source, err);
 }
@@ -107,6 +110,8 @@ void tc_march_bind(const tc_job *job, GLuint program)
     tc_job_bind_mesh(job, program);
     if (job->planes)
         bind_planes(job, program);
+    if (job->kept)
+        tc_pass_fetch(gl, program, "kept_pairs", IMAGE_KEPT, GL_RG32F, job->kept->pairs.texture, job->software);
     if (!job->effects || !(job->effects->needs & TC_NEEDS_NO_FUNCTION))
         bind_transfer(job, program);
     tc_pass_int(gl, program, "steps_per_pass", job->steps_per_pass);

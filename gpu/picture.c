@@ -8,6 +8,7 @@
 #include "gpu/audit.h"
 #include "gpu/effect.h"
 #include "gpu/first_hit.h"
+#include "gpu/kept.h"
 #include "scene/samples.h"
 
 #include <stdlib.h>
@@ -123,7 +124,13 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
     int *rect = p->proposals->rect;
     p->proposals->n = 0;
     memset(rect, 0, sizeof p->proposals->rect);
-    if (!now->hidden)
+    tc_kept_view *view = edge > 1 ? NULL
+                                  : tc_kept_find(p->kept, job, p->mesh_serial, p->scalar_serial, p->options->width,
+                                                 p->options->height);
+    job->kept = view && view->recorded ? view : NULL;
+    if (job->kept)
+        memcpy(rect, view->rect, sizeof view->rect);
+    else if (!now->hidden)
         status = tc_propose(p->proposals, now, p->options->width, p->options->height, p->face_corner, job->mesh->n_face,
                             err);
     const bool effect_frame = job->effects && tc_effects_have_frame(job->effects);
@@ -137,6 +144,12 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
     gl->Scissor(rect[0], rect[1], rect[2], rect[3]);
     if (status == TC_OK && effect_frame)
         status = tc_effects_frame(job->effects, job, err);
+    if (status == TC_OK && !job->kept && view && tc_kept_due(view)) {
+        status = tc_kept_record(p->kept, view, job, err);
+        job->kept = view->recorded ? view : NULL;
+    }
+    if (status == TC_OK && job->kept)
+        status = tc_kept_values(p->kept, view, job, p->scalar_serial, p->threads, err);
     double ms_propose = tc_now_ms() - start;
     if (status == TC_OK)
         status = job->driver->frame(&one, job, err);

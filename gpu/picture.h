@@ -14,6 +14,9 @@ typedef struct tc_picture {
     double scale;
     const float *face_corner;
     tc_proposals *proposals;
+    struct tc_kept *kept; /* kept.h, of the mesh and values with these serials */
+    uint64_t mesh_serial, scalar_serial;
+    int threads;
     int *drawn; /* [4] the part of state.result that is not empty; becomes this picture's */
 
     tc_frame rays_now;      /* of the frame that is made, or was made last */

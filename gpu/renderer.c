@@ -6,6 +6,7 @@
 #include "gpu/audit.h"
 #include "gpu/effect.h"
 #include "gpu/first_hit.h"
+#include "gpu/kept.h"
 #include "gpu/pass.h"
 #include "gpu/picture.h"
 #include "gpu/transfer_gpu.h"
@@ -46,6 +47,7 @@ struct tc_gpu_renderer {
 
     tc_transfer_gpu transfer;
     tc_effect_store effects;
+    tc_kept kept;
     tc_effects last; /* of the last picture; n 0: there is none */
     tc_state state;
     tc_proposals proposals;
@@ -90,6 +92,7 @@ void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer)
         tc_gpu_mesh_finish(&r->mesh, gl);
         tc_transfer_gpu_finish(&r->transfer, gl);
         tc_effect_store_finish(&r->effects, gl);
+        tc_kept_clear(&r->kept, gl);
         tc_state_finish(&r->state, gl);
         tc_program_cache_destroy(&r->programs);
         gl->DeleteVertexArrays(2, r->vertex_array);
@@ -108,6 +111,11 @@ void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer)
 void tc_gpu_renderer_release(tc_gpu_renderer *renderer)
 {
     tc_context_release(renderer->context);
+}
+
+void tc_gpu_renderer_keep(tc_gpu_renderer *renderer, size_t bytes)
+{
+    renderer->kept.most = bytes;
 }
 
 const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer)
@@ -311,6 +319,8 @@ static void fill_stats(tc_render_stats *stats, const tc_gpu_renderer *r, const t
                                       tc_first_hit_corners(r->proposals.n) * sizeof *r->proposals.corner);
     stats->gpu_bytes_table = (double)r->transfer.textures.bytes;
     stats->gpu_bytes_state = (double)r->state.bytes;
+    stats->bytes_kept = (double)r->kept.bytes;
+    stats->kept = job->kept != NULL;
     stats->steps_per_pass = job->steps_per_pass;
     stats->z_update_every = job->driver->locks ? job->z_update_every : -1;
     stats->passes = result->passes;
@@ -463,6 +473,10 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
                           .scale = r->scale,
                           .face_corner = r->face_corner,
                           .proposals = &r->proposals,
+                          .kept = &r->kept,
+                          .mesh_serial = r->mesh_serial,
+                          .scalar_serial = r->scalar_serial,
+                          .threads = r->threads,
                           .drawn = r->drawn,
                           .stats = stats};
     status = tc_picture_compile(&picture, err);

@@ -26,6 +26,8 @@ tc_status tc_gpu_renderer_create(tc_gpu_renderer **out, const char *name, tc_get
 void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer);
 /* Takes its context from the calling thread, so that the next call may come from another one. */
 void tc_gpu_renderer_release(tc_gpu_renderer *renderer);
+/* How many bytes of walks may be kept (kept.h); 0, as at first: none. */
+void tc_gpu_renderer_keep(tc_gpu_renderer *renderer, size_t bytes);
 const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer);
 
 /* Packs, uploads and compiles what changed, then renders; the result stays in a texture. Fills stats.

@@ -399,6 +399,9 @@ typedef struct tc_renderer_options {
     const char *driver; /* "auto", "pingpong", "compute", "reference"; NULL: auto */
     void *(*get_proc_address)(const char *name); /* not NULL: a context the host owns and has made current */
     int threads;        /* 0: all cores */
+    size_t keep_bytes;  /* of walks that may be kept: a view of a mesh that comes again, with other values or another function,
+                           is then not walked again. In software renderers, of plain pictures of point data by the integrators
+                           TABLE and INTEGRAL, which are the same bit by bit; 0: none */
 } tc_renderer_options;
 
 /* options NULL: all defaults. Driver auto takes pingpong in a software GL and compute on a GPU; where no GL context can be
@@ -468,6 +471,8 @@ typedef struct tc_render_stats {
     int64_t refined;     /* adaptive sampling: pixels of 16 rays */
     double ms_pack, ms_upload, ms_table, ms_compile, ms_first_hit, ms_march, ms_frame, ms_readback;
     double gpu_bytes_mesh, gpu_bytes_other, gpu_bytes_table, gpu_bytes_state; /* cells + vertices; boundary; tables; state */
+    double bytes_kept;     /* of walks that are kept (tc_renderer_options.keep_bytes) */
+    bool kept;             /* the rays of this picture went along one */
     double gpu_bytes_sent; /* of the mesh and its values, for this frame: 0 where the renderer held both */
     int steps_per_pass, z_update_every, passes, z_updates, layers; /* layers: entries peeled, 1 when convex */
     int64_t rays, rays_lost, steps, steps_max;

@@ -162,7 +162,11 @@ tc_status tc_render_resolve(double *unit, tc_rays *rays, const tc_mesh *mesh, co
 static tc_status gl_create(tc_renderer *r, const tc_renderer_options *options, const tc_log *log, tc_error *err)
 {
     r->host = options->get_proc_address != NULL;
-    return tc_gpu_renderer_create(&r->gpu, options->gl, options->get_proc_address, options->threads, log, err);
+    tc_status status =
+        tc_gpu_renderer_create(&r->gpu, options->gl, options->get_proc_address, options->threads, log, err);
+    if (status == TC_OK)
+        tc_gpu_renderer_keep(r->gpu, options->keep_bytes);
+    return status;
 }
 
 static tc_status gl_render(tc_image *image, tc_render_stats *stats, tc_renderer *r, const tc_gpu_frame *frame,

@@ -100,7 +100,8 @@ tc_look = _struct(
     ("has_box", c_bool), ("box", c_double * 6), ("n_select", c_int), ("select", c_void_p), ("n_geometry", c_int),
     ("geometry", c_void_p))
 tc_renderer_options = _struct(
-    "tc_renderer_options", ("gl", c_char_p), ("driver", c_char_p), ("get_proc_address", c_void_p), ("threads", c_int))
+    "tc_renderer_options", ("gl", c_char_p), ("driver", c_char_p), ("get_proc_address", c_void_p), ("threads", c_int),
+    ("keep_bytes", c_size_t))
 tc_render_options = _struct(
     "tc_render_options", ("width", c_int), ("height", c_int), ("whole_width", c_int), ("whole_height", c_int),
     ("part_x", c_int), ("part_y", c_int), ("integrator", c_int), ("table_size", c_int * 3), ("table_format", c_int),
@@ -115,7 +116,8 @@ tc_render_stats = _struct(
     ("state_bits", c_int), ("refined", c_int64),
     *[(name, c_double) for name in (
         "ms_pack", "ms_upload", "ms_table", "ms_compile", "ms_first_hit", "ms_march", "ms_frame", "ms_readback",
-        "gpu_bytes_mesh", "gpu_bytes_other", "gpu_bytes_table", "gpu_bytes_state", "gpu_bytes_sent")],
+        "gpu_bytes_mesh", "gpu_bytes_other", "gpu_bytes_table", "gpu_bytes_state", "bytes_kept")],
+    ("kept", c_bool), ("gpu_bytes_sent", c_double),
     *[(name, c_int) for name in ("steps_per_pass", "z_update_every", "passes", "z_updates", "layers")],
     *[(name, c_int64) for name in ("rays", "rays_lost", "steps", "steps_max", "audit_broken")],
     ("n_fragments_per_pass", c_size_t), ("fragments_per_pass", ctypes.POINTER(c_int64)))

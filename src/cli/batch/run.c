@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { TC_FAILED_MOST = 3, TC_WRITERS_MOST = 4, TC_SAID = 64 };
+enum { TC_KEEP_LEAST = 4, TC_KEEP_MOST = 1 << 29, TC_FAILED_MOST = 3, TC_WRITERS_MOST = 4, TC_SAID = 64 };
 
 typedef struct tc_run {
     tc_batch_frames *frames;
@@ -355,9 +355,22 @@ static int tc_load_make(tc_run *r, size_t position, size_t field)
     return code;
 }
 
+/* How much memory walks may take that are kept for the steps and functions to come (tc_renderer_options): none where too few of a
+ * view come. */
+static size_t tc_keep_bytes(const tc_run *r)
+{
+    const tc_plan *plan = &r->frames->plan;
+    const uint64_t most = r->scene->look[0].memory;
+    if (plan->along || plan->n_step * plan->n_field * plan->n_function < TC_KEEP_LEAST)
+        return 0;
+    return most > 0 && most / 4 < TC_KEEP_MOST ? (size_t)most / 4 : (size_t)TC_KEEP_MOST;
+}
+
 static int tc_run_open(tc_run *r)
 {
-    const tc_render_command *first = &r->scene->look[0].picture;
+    tc_render_command first_look = r->scene->look[0].picture;
+    const tc_render_command *first = &first_look;
+    first_look.keep_bytes = tc_keep_bytes(r);
     const size_t looks = r->scene->n_field * r->scene->n_function;
     const long cores = first->source.threads > 0 ? first->source.threads : sysconf(_SC_NPROCESSORS_ONLN);
     const int n = cores >= 2 * TC_WRITERS_MOST ? TC_WRITERS_MOST : cores > 2 ? (int)cores / 2 : 1;

@@ -22,7 +22,7 @@ int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *ta
 {
     size_t n = (size_t)options->repeat;
     *out = (tc_frames){
-        .make = {.gl = options->gl, .driver = options->driver, .threads = options->source.threads},
+        .make = {.gl = options->gl, .driver = options->driver, .threads = options->source.threads, .keep_bytes = options->keep_bytes},
         .frame = calloc(n, 4 * sizeof(double)),
     };
     if (!out->frame) {
