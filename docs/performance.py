@@ -330,7 +330,8 @@ def batch(page):
     data = page.section("batch")
     if not data:
         return page.absent("Batches", "batch")
-    names = [("bunyk", "VTK, ray caster"), ("projected", "VTK, projected tetrahedra"), ("once", "tetcast once a frame")]
+    names = [("default", "VTK's ray caster"), ("preintegrated", "pre-integrated"), ("projected", "projected tetrahedra, approximate"),
+             ("once", "tetcast once a frame")]
     rows = []
     for name, r in data["rows"].items():
         rate = r["frames_per_minute"]

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """The loop that a batch replaces, in VTK's Python: every step of a dataset, from some views, with some functions, as PNG files.
 
-  xvfb-run -a /usr/bin/python3 batch_vtk.py SCENE.json FOLDER [--mapper default|preintegrated|projected] [--limit N]
+  xvfb-run -a /usr/bin/python3 batch_vtk.py SCENE.json FOLDER [--mapper default|preintegrated|projected]
 
 SCENE.json is a scene of tetcast batch: data (a file, or a list of files), field, views {"phi": N, "theta": [..]}, a list of
-transfer functions {"color_map": "Cool to Warm" or "grey", "opacity": "S:A,S:A"}, output {"size": "WxH"}; ranges are fixed in it.
+transfer functions {"color_map": "Cool to Warm" or a preset of ColorSpace RGB from 0 to 1, "opacity": "S:A,S:A"}, output {"size": "WxH"}; ranges are fixed in it.
 default: vtkUnstructuredGridVolumeRayCastMapper as it is; preintegrated: with the quicker of its integrators; projected:
 vtkProjectedTetrahedraMapper, which is approximate. The mesh is split into tetrahedra once while it stays the same; mapper, window and functions are kept. Prints one JSON line:
 {"frames": N, "seconds": S, "first": seconds to the first picture}. Needs python3-vtk9 and an X display.
@@ -19,8 +19,7 @@ import time
 
 sys.dont_write_bytecode = True
 
-MAPS = {"Cool to Warm": [(0, 0.231373, 0.298039, 0.752941), (0.5, 0.865003, 0.865003, 0.865003), (1, 0.705882, 0.0156863, 0.14902)],
-        "X Ray": [(0, 1, 1, 1), (1, 0, 0, 0)]}
+COOL_TO_WARM = [0, 0.231373, 0.298039, 0.752941, 0.5, 0.865003, 0.865003, 0.865003, 1, 0.705882, 0.0156863, 0.14902]
 
 
 def reader_of(vtk, path):
@@ -68,10 +67,13 @@ def functions(vtk, scene):
     for f in scene["transfer_function"]:
         lo, hi = f["range"]
         color, opacity = vtk.vtkColorTransferFunction(), vtk.vtkPiecewiseFunction()
+        points = COOL_TO_WARM
         if f["color_map"] == "Cool to Warm":
             color.SetColorSpaceToDiverging()
-        for x, r, g, b in MAPS[f["color_map"]]:
-            color.AddRGBPoint(lo + (hi - lo) * x, r, g, b)
+        else:
+            points = f["color_map"]["RGBPoints"]
+        for i in range(0, len(points), 4):
+            color.AddRGBPoint(lo + (hi - lo) * points[i], *points[i + 1:i + 4])
         for knot in f["opacity"].split(","):
             s, a = knot.split(":")
             opacity.AddPoint(float(s), float(a))
@@ -91,7 +93,6 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--mapper", choices=["default", "preintegrated", "projected"], default="default")
     parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--limit", type=int, default=0)
     options = parser.parse_args()
     start = time.monotonic()
     import vtk
@@ -151,8 +152,6 @@ def main():
                     writer.Write()
                     done += 1
                     first = first or time.monotonic() - start
-                    if done == options.limit:
-                        finish(done, start, first)
     finish(done, start, first)
 
 

@@ -363,7 +363,7 @@ static size_t tc_keep_bytes(const tc_run *r)
     const uint64_t most = r->scene->look[0].memory;
     if (plan->along || plan->n_step * plan->n_field * plan->n_function < TC_KEEP_LEAST)
         return 0;
-    return most > 0 && most / 4 < TC_KEEP_MOST ? (size_t)most / 4 : (size_t)TC_KEEP_MOST;
+    return most == 0 ? (size_t)TC_KEEP_MOST : 0; /* with a bound: what it leaves, once that is known */
 }
 
 static int tc_run_open(tc_run *r)
