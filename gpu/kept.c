@@ -124,17 +124,18 @@ static tc_status walk_rays(const tc_job *job, GLuint framebuffer, const tc_kept_
     return tc_gl_check(gl, "recording walks", err);
 }
 
-/* From counts [n] to first [n][2]; *sum gets the records, -1: they cannot be kept. Rays of no record have no walk. */
-static void place_records(int64_t *sum, int64_t *entered, int32_t *first, const int32_t *count, size_t n)
+/* From counts [n][2] to first [n][2] and the most cells; *sum gets the records, -1: they cannot be kept. Rays of no record have no walk. */
+static void place_records(int64_t *sum, int64_t *entered, int *cells, int32_t *first, const int32_t *count, size_t n)
 {
     *sum = *entered = 0;
     for (size_t i = 0; i < n; i++) {
-        const int32_t own = count[i] - 1;
-        if (count[i] < 0 || *sum > INT32_MAX / 7 - 100000) {
+        const int32_t own = count[2 * i] - 1;
+        *cells = count[2 * i + 1] > *cells ? count[2 * i + 1] : *cells;
+        if (own < -1 || *sum > INT32_MAX / 7 - 100000) {
             *sum = -1;
             return;
         }
-        *entered += count[i] > 0;
+        *entered += own >= 0;
         first[2 * i] = own > 0 ? (int32_t)(*sum + 1) : 0;
         first[2 * i + 1] = own > 0 ? (int32_t)(*sum + own) : 0;
         *sum += own > 0 ? own : 0;
@@ -193,14 +194,14 @@ tc_status tc_kept_record(tc_kept *k, tc_kept_view *view, const tc_job *job, tc_e
 {
     const tc_gl *gl = job->gl;
     const size_t n = (size_t)view->width * (size_t)view->height;
-    int32_t *count = tc_alloc(n, sizeof *count), *first = tc_alloc(n, 2 * sizeof *first);
+    int32_t *count = tc_alloc(n, 2 * sizeof *count), *first = tc_alloc(n, 2 * sizeof *first);
     int64_t sum = 0, entered = 0;
     const GLint none[4] = {0, 0, 0, 0};
     GLuint texture = 0, framebuffer = 0;
-    tc_status status = count && first ? tc_first_hit(job, 0, err) : tc_fail_memory(err, "kept walks", n, 12);
+    tc_status status = count && first ? tc_first_hit(job, 0, err) : tc_fail_memory(err, "kept walks", n, 16);
     if (status != TC_OK)
         goto done;
-    texture = tc_pass_new_texture(gl, view->width, view->height, GL_R32I, GL_RED_INTEGER, GL_INT);
+    texture = tc_pass_new_texture(gl, view->width, view->height, GL_RG32I, GL_RG_INTEGER, GL_INT);
     gl->GenFramebuffers(1, &framebuffer);
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl->FramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0);
@@ -212,8 +213,8 @@ tc_status tc_kept_record(tc_kept *k, tc_kept_view *view, const tc_job *job, tc_e
         goto done;
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl->ReadPixels(0, 0, view->width, view->height, GL_RED_INTEGER, GL_INT, count);
-    place_records(&sum, &entered, first, count, n);
+    gl->ReadPixels(0, 0, view->width, view->height, GL_RG_INTEGER, GL_INT, count);
+    place_records(&sum, &entered, &view->cells, first, count, n);
     view->refused = sum < 0 || tc_first_hit_entries(job) != entered;
     if (!view->refused)
         status = make_room(k, view, job, first, (size_t)sum, err);

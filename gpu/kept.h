@@ -27,6 +27,7 @@ typedef struct tc_kept_view {
     bool other, recorded, refused; /* other: values were not always the first picture's */
     GLuint first;                  /* RG32I: 1 + a ray's first record, the one behind its last; 0 0: none */
     size_t n_record;
+    int cells; /* the most that a ray goes through: where they are not all in one pass, sums are rounded elsewhere */
     struct tc_kept_face *record; /* [n_record] */
     tc_texture_buffer pairs;       /* RG32F, for each: its scalar, by the values of values_serial; its length */
     uint64_t values_serial;

@@ -127,7 +127,7 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
     tc_kept_view *view = edge > 1 ? NULL
                                   : tc_kept_find(p->kept, job, p->mesh_serial, p->scalar_serial, p->options->width,
                                                  p->options->height);
-    job->kept = view && view->recorded ? view : NULL;
+    job->kept = view && view->recorded && view->cells <= job->steps_per_pass ? view : NULL;
     if (job->kept)
         memcpy(rect, view->rect, sizeof view->rect);
     else if (!now->hidden)
@@ -146,7 +146,7 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
         status = tc_effects_frame(job->effects, job, err);
     if (status == TC_OK && !job->kept && view && tc_kept_due(view)) {
         status = tc_kept_record(p->kept, view, job, err);
-        job->kept = view->recorded ? view : NULL;
+        job->kept = view->recorded && view->cells <= job->steps_per_pass ? view : NULL;
     }
     if (status == TC_OK && job->kept)
         status = tc_kept_values(p->kept, view, job, p->scalar_serial, p->threads, err);

@@ -18,7 +18,7 @@ layout(std430, binding = 1) writeonly restrict buffer Records {
     int records[]; // three of ids, four of bits of floats
 };
 #endif
-layout(location = 0) out int out_count; // 1 + the number of records; 0: the ray misses the mesh; -1: it does not come to its end
+layout(location = 0) out ivec2 out_count; // 1 + the number of records (0: the ray misses the mesh; -1: it does not come to its end), cells
 
 int record_first = 0, record_count = 0;
 
@@ -44,7 +44,7 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     ivec4 walk = texelFetch(state_walk, pixel, 0);
-    out_count = 0;
+    out_count = ivec2(0);
     if (walk.x >= 0) {
 #ifdef RECORD
         record_first = texelFetch(kept_first, pixel, 0).x - 1;
@@ -59,11 +59,13 @@ void main()
         vec3 weight = w.weight;
         bool there = false; // it is that of the last record
         bool real = false;  // the cell before it was
+        int cells = 0;
         do {
             walk_exact(w, ray);
             do {
                 float z = w.z;
                 bool on = w.cell >= 0;
+                cells += on ? 1 : 0;
                 ivec3 from = id;
                 vec3 from_weight = weight;
                 Segment segment = walk_step(w, ray);
@@ -79,6 +81,6 @@ void main()
                 real = segment.real;
             } while (w.cell >= 0 && walk_fast(w, ray));
         } while (w.cell >= 0);
-        out_count = w.cell >= 0 ? -1 : 1 + record_count;
+        out_count = ivec2(w.cell >= 0 ? -1 : 1 + record_count, cells);
     }
 }
