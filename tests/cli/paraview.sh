@@ -89,7 +89,7 @@ for what in \
     "the representation is Surface, not Volume" \
     "the colours are 8 bands there and continuous here" \
     "the colours below and above the range are left out" \
-    "shading (--shade gradient) is left out" \
+    "shading (--shade vertex) is left out" \
     "the representation's Position (0, 0, 1) is left out" \
     "the filter Clip1 (Clip) is left out, what goes into it is shown (--clip, --clip-box)" \
     "the filter Threshold1 (Threshold) is left out, what goes into it is shown (--select)" \
@@ -109,6 +109,13 @@ run 0 batch left_out.pvsm --field Temp --point-data --range 0.1,10 --driver refe
 "$TC_PIXELS" many/0_0001.png tetcast:scene | grep -q '"position":\[4,3,8\]' || fail "the path does not begin at its first key"
 "$TC_PIXELS" many/2_0003.png tetcast:scene | grep -q '"position":\[8,3,4\]' || fail "the path does not end at its last key"
 "$TC_PIXELS" many/2_0003.png tetcast:scene | grep -q 'data/c.vtu' || fail "the last step is not of the last file"
+mv data/c.vtu c_away
+mkdir fewer
+run 1 batch left_out.pvsm --field Temp --point-data --range 0.1,10 --driver reference -o "fewer/{step}_{view}.png"
+mv c_away data/c.vtu
+[ "$(ls fewer)" = "$(printf '0_0001.png\n1_0002.png')" ] || fail "without the last file the batch made $(ls fewer)"
+says "step 2: data/c.vtu cannot be opened"
+says_not "the camera's path is left out"
 run 0 batch disk.vtu --paraview volume.pvsm --driver reference -o many/one.png --quiet
 same_pixels volume.png many/one.png
 

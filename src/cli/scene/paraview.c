@@ -84,7 +84,7 @@ int tc_paraview_options(tc_scene *out, const char *path, bool wants_data, bool s
     json_object_del(json, "series");
     if (code < 0 && json_object_get(json, "views")) {
         json_object_del(json, "views");
-        if (!tc_command_option(command, "--views"))
+        if (!tc_command_option(command, "--frames")) /* a batch takes it */
             tc_paraview_note(&notes, "the camera's path is left out: tetcast batch makes several pictures");
     }
     if (code < 0 && !silent)

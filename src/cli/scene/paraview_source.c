@@ -83,14 +83,23 @@ static size_t tc_series_find(const tc_pv *pv, const tc_pv_proxy *reader, size_t 
     return found;
 }
 
+/* The path of a file as the state says it: where it is not absolute, from the state's folder. From malloc, or NULL. */
+static char *tc_data_led(const tc_pv_build *b, const char *file)
+{
+    const char *slash = strrchr(b->path, '/');
+    const int length = *file == '/' || !slash ? 0 : (int)(slash - b->path) + 1;
+    char *led = NULL;
+    return asprintf(&led, "%.*s%s", length, b->path, file) < 0 ? NULL : led;
+}
+
 /* The path of a file of the state's: as it is, from the state's folder where it is not absolute, or of its name beside
  * the state where it is not there. NULL: it is not there, or memory ran out. */
 static char *tc_data_find(tc_pv_build *b, const char *file, bool silent)
 {
     const char *slash = strrchr(b->path, '/'), *name = strrchr(file, '/');
     const int length = slash ? (int)(slash - b->path) + 1 : 0;
-    char *led = NULL;
-    if (asprintf(&led, "%.*s%s", *file == '/' ? 0 : length, b->path, file) < 0)
+    char *led = tc_data_led(b, file);
+    if (!led)
         return NULL;
     if (access(led, F_OK) == 0)
         return led;
@@ -149,12 +158,14 @@ static void tc_reader_note(tc_pv_build *b, const tc_pv_proxy *reader)
     }
 }
 
-/* All files of a series, those that are there. */
+/* All files of a series; one that is not there stays as the state says it, so that its step is told of as missing. */
 static void tc_series_put(tc_pv_build *b, const tc_pv_property *files)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < files->n; i++) {
-        char *data = tc_data_find(b, b->pv->text + b->pv->value[files->first + i], true);
+        const char *file = b->pv->text + b->pv->value[files->first + i];
+        char *data = tc_data_find(b, file, true);
+        data = data ? data : tc_data_led(b, file);
         if (data)
             json_array_append_new(list, json_string(data));
         free(data);

@@ -171,7 +171,7 @@ static void tc_options_note(tc_pv_build *b, const tc_pv_proxy *r)
         {"UseGradientOpacity", "opacity by the gradient"},
         {"UseSeparateOpacityArray", "the opacity's own array"},
         {"MultiComponentsMapping", "the mapping of several components"},
-        {"Shade", "shading (--shade gradient)"},
+        {"Shade", "shading (--shade vertex)"},
     };
     static const struct {
         const char *property;
