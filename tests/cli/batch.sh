@@ -364,6 +364,20 @@ absent d
 run 0 batch s.json --dry-run --resume
 [ "$(grep -c 'kept$' out)" -eq 32 ] || fail "frames that are there are not told"
 
+# What is said of a picture that is written is not said of the step that is at hand meanwhile.
+run 0 batch p.json --size 8x8 -o "j/{step}.jpg"
+says "warning: j/0.jpg: JPEG has no transparency"
+says_not "warning: step"
+says_not "e+"
+
+# A time beyond all steps is told.
+run 0 batch p.json --size 8x8 --dry-run --time 2.5
+says_not "lies"
+run 0 batch p.json --size 8x8 --dry-run --time 99
+says "time 99 lies after the last step; the step at 3 is shown"
+run 0 batch p.json --size 8x8 --dry-run --time -1
+says "time -1 lies before the first step; the step at 0 is shown"
+
 # --memory: too little is one sentence, enough is the same pictures.
 run 1 batch s.json --quiet --memory 4M -o "m/s_{step:04d}_{field}_{tf}_{phi}_{theta}.png"
 one_line

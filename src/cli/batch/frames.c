@@ -20,8 +20,8 @@ static int tc_no_memory(tc_talk *talk)
 
 /* ------------------------------------------------------------------------------------------------------------ plan */
 
-/* The ranges that --step and --time stand for. */
-static void tc_ranges_of(tc_plan_ranges *out, const tc_batch_base *base, const tc_batch_command *look)
+/* The ranges that --step and --time stand for. A time beyond all of them is told, as the readers do. */
+static void tc_ranges_of(tc_plan_ranges *out, const tc_batch_base *base, const tc_batch_command *look, tc_talk *talk)
 {
     const tc_render_command *o = &look->picture;
     tc_plan_range range = {.stride = 1};
@@ -40,6 +40,10 @@ static void tc_ranges_of(tc_plan_ranges *out, const tc_batch_base *base, const t
         for (size_t i = 0; i < base->n_step; i++)
             if (base->time[i] <= o->source.time)
                 range.from = (long long)i;
+        const double asked = o->source.time, taken = base->time[range.from];
+        if (asked < base->time[0] || asked > base->time[base->n_step - 1])
+            tc_talk_say(talk, "time %g lies %s step; the step at %g is shown", asked,
+                        asked < taken ? "before the first" : "after the last", taken);
     } else {
         return;
     }
@@ -52,7 +56,7 @@ int tc_batch_plan(tc_batch_frames *out, const tc_batch_base *base, const tc_batc
     char why[256];
     tc_plan_ranges ranges;
     const tc_batch_command *look = &scene->look[0];
-    tc_ranges_of(&ranges, base, look);
+    tc_ranges_of(&ranges, base, look, talk);
     const tc_plan_options options = {
         .n_time = base->stepped || scene->series.of_files ? base->n_step : 0,
         .ranges = ranges.n > 0 ? &ranges : NULL,

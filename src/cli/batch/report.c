@@ -158,6 +158,7 @@ static void tc_failures_list(const tc_report *r, size_t left)
 static void tc_summary_say(const tc_report *r, double seconds, double self, double helper)
 {
     char took[64], kept[64] = "";
+    const double rate = 60 * (double)r->done / fmax(seconds, 1e-9);
     tc_duration_text(took, sizeof took, seconds);
     if (r->all == 0) {
         tc_talk_say(r->talk, "none of the frames is of this shard: there are fewer of them than shards");
@@ -170,8 +171,8 @@ static void tc_summary_say(const tc_report *r, double seconds, double self, doub
     }
     if (r->kept)
         snprintf(kept, sizeof kept, ", %zu were there", r->kept);
-    tc_talk_say(r->talk, "%zu of %zu frames made%s, in %s (%.3g a minute); at most %.1f MiB of memory, helpers %.1f MiB",
-                r->done, r->all, kept, took, 60 * (double)r->done / fmax(seconds, 1e-9), self, helper);
+    tc_talk_say(r->talk, "%zu of %zu frames made%s, in %s (%.*f a minute); at most %.1f MiB of memory, helpers %.1f MiB",
+                r->done, r->all, kept, took, rate < 9.95 ? 1 : 0, rate, self, helper);
 }
 
 void tc_report_end(tc_report *r, const char *stopped)

@@ -70,7 +70,7 @@ static void tc_run_progress(void *user, const char *what, double fraction)
 }
 
 /* What became of a frame that was written. -1, or the exit code that ends the run. */
-static int tc_written_note(tc_run *r, const tc_written *w)
+static int tc_frame_note(tc_run *r, const tc_written *w)
 {
     tc_batch_frame *frame = &r->frames->frame[w->frame];
     const tc_name_values values = tc_batch_values(r->frames, r->base, r->scene, w->frame);
@@ -83,16 +83,23 @@ static int tc_written_note(tc_run *r, const tc_written *w)
         r->failed_in_a_row = 0;
         return tc_catalogue_add(r->catalogue, r->frames, r->base, r->scene, w->frame, r->talk);
     }
-    char about[sizeof r->talk->about]; /* of the step at hand, which may be another */
-    memcpy(about, r->talk->about, sizeof about);
-    *r->talk->about = 0;
     tc_talk_error(r->talk, "%s", w->err.text);
-    memcpy(r->talk->about, about, sizeof about);
     if (++r->failed_in_a_row != TC_FAILED_MOST)
         return r->failed_in_a_row < TC_FAILED_MOST ? -1 : TC_EXIT_FAILED;
     tc_talk_error(r->talk, "%d pictures in a row could not be written: the batch ends; with --resume it goes on",
                   r->failed_in_a_row);
     return TC_EXIT_FAILED;
+}
+
+/* The same, said without the step at hand, which may be another than that of the frame. */
+static int tc_written_note(tc_run *r, const tc_written *w)
+{
+    char about[sizeof r->talk->about];
+    memcpy(about, r->talk->about, sizeof about);
+    *r->talk->about = 0;
+    const int code = tc_frame_note(r, w);
+    memcpy(r->talk->about, about, sizeof about);
+    return code;
 }
 
 /* Those that are done; wait: all that are under way. */
