@@ -118,6 +118,10 @@ there run_1.png
 rm -f run_?.png
 run 2 batch p.json -o -
 one_line
+run 2 batch p.json --size 8x8 --bits 16 -o "bits/{step}.jpg"
+says "bits/{step}.jpg: --bits 16: png has 8 or 16 bits a channel"
+one_line
+absent bits
 run 2 batch p.json --stats a.json
 one_line
 
@@ -297,6 +301,8 @@ wrong "wrong.json:1: transfer_function is an empty list" '{"data": "run.pvd", "t
 wrong "wrong.json:1: transfer_function takes an object" '{"data": "run.pvd", "transfer_function": [3]}'
 wrong "wrong.json:1: data" '{"data": 3}'
 wrong "wrong.json:1: data" '{"frames": "0"}'
+wrong "wrong.json: data takes the name of a file, a pattern" '{"data": []}'
+wrong "wrong.json: times takes a list of as many numbers as there are files: 1, not 2" '{"data": ["run_1.vtk"], "times": [1, 2]}'
 wrong "wrong.json:1: frames takes" '{"data": "run.pvd", "frames": "x"}'
 wrong "wrong.json:1: shell is not in this version" '{"data": "run.pvd", "shell": {}}'
 wrong "wrong.json:1: a scene is an object" '[]'

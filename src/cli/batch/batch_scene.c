@@ -219,8 +219,10 @@ int tc_batch_scene_read(tc_batch_scene *out, tc_talk *talk, int argc, char **arg
         return tc_refuse(out, "data", talk, "is missing: add \"data\": \"FILE\"");
     if (!json_is_string(data) && !json_is_array(data))
         return tc_refuse(out, "data", talk, "takes the name of a file, a pattern, or a list of them");
+    talk->from = out->path; /* before what is said of data and times; NULL: they are of the command line */
     code = tc_series_make(&out->series, data, json_object_get(out->json, "times"),
                           out->data_whole ? NULL : out->folder, talk);
+    talk->from = NULL;
     if (code < 0 && views) {
         char called[512];
         snprintf(called, sizeof called, "%.400s:%d: views", out->path ? out->path : input,

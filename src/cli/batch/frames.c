@@ -306,6 +306,11 @@ int tc_batch_frames_make(tc_batch_frames *f, const tc_batch_base *base, const tc
     if (!f->pattern)
         return tc_no_memory(talk);
     code = tc_output_kind_check(f->pattern, talk);
+    char why[160] = "";
+    if (code < 0)
+        tc_output_wrong(why, &look->picture.out, f->pattern);
+    if (*why)
+        code = tc_given_refuse(&look->picture.given, talk, "--bits", NULL, "%s: %s", f->pattern, why);
     if (code < 0 && look->cinema)
         code = tc_database_place(f, scene, talk);
     return code < 0 ? tc_names_make(f, base, scene, talk) : code;
