@@ -121,6 +121,9 @@ int tc_batch_run_command(tc_talk *talk, const tc_command *command, int argc, cha
     (void)command;
     tc_stop_prepare();
     int code = tc_batch_scene_read(&scene, talk, argc, argv);
+    if (code < 0 && (tc_is_given(&scene.look[0].picture.given, "--cache") ||
+                     tc_is_given(&scene.look[0].picture.given, "--cache-file")))
+        tc_talk_warning(talk, "a batch reads and writes no cache: --cache and --cache-file are left aside");
     if (code < 0)
         code = tc_batch_base_open(&base, &scene, talk);
     if (code < 0)

@@ -124,6 +124,8 @@ one_line
 absent bits
 run 2 batch p.json --stats a.json
 one_line
+run 0 batch p.json --size 8x8 --cache --dry-run
+says "warning: a batch reads and writes no cache"
 
 # One database holds all pictures: it begins where names begin to differ, or where the name says.
 cinema() { # cinema OUTPUT CDB FILE
