@@ -3,6 +3,7 @@
 #include "cli/batch/films.h"
 #include "cli/batch/run.h"
 #include "cli/batch/stop.h"
+#include "cli/picture/render_setup.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -121,6 +122,8 @@ int tc_batch_run_command(tc_talk *talk, const tc_command *command, int argc, cha
     (void)command;
     tc_stop_prepare();
     int code = tc_batch_scene_read(&scene, talk, argc, argv);
+    for (size_t i = 0; i < scene.n_field * scene.n_function && code < 0; i++) /* not at each step anew */
+        code = tc_render_function_check(&scene.look[i].picture, talk);
     if (code < 0 && (tc_is_given(&scene.look[0].picture.given, "--cache") ||
                      tc_is_given(&scene.look[0].picture.given, "--cache-file")))
         tc_talk_warning(talk, "a batch reads and writes no cache: --cache and --cache-file are left aside");

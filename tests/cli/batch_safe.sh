@@ -221,4 +221,9 @@ PATH=$work/empty:$PATH run 0 batch s.json --quiet --resume -o "film/$name" --vid
 for phi in 0 90 180 270; do there "film/$phi.mp4"; done
 [ "$(find film -maxdepth 1 -type f | wc -l)" -eq 4 ] || fail "beside the videos: $(ls -A film)"
 
+# A function that cannot be made is told once, before the first picture.
+run 2 batch 'run_*.vtk' --color-map Viridiss --quiet -o "nomap/{step}.png"
+sentences 1
+absent nomap
+
 finish

@@ -49,6 +49,17 @@ static int tc_transfer_make(tc_render_run *run, const double range[2], tc_talk *
     return status ? tc_talk_status(talk, status, &err) : -1;
 }
 
+int tc_render_function_check(const tc_render_command *options, tc_talk *talk)
+{
+    static const double any[2] = {1, 2}; /* above 0, for --log */
+    tc_render_run run = {.options = options};
+    if (options->look.categories)
+        return -1; /* they are of the values */
+    int code = tc_transfer_make(&run, any, talk);
+    tc_transfer_destroy(&run.tf);
+    return code;
+}
+
 static void tc_render_set(tc_render_options *out, const tc_render_command *options)
 {
     tc_render_defaults(out);

@@ -13,6 +13,8 @@ int tc_render_open(tc_render_run *run, const tc_render_command *options, tc_talk
  * over. A function and a camera that the run has already stay; the look is made anew. The same codes. */
 int tc_render_setup(tc_render_run *run, const double range[2], tc_talk *talk);
 void tc_render_close(tc_render_run *run);
+/* Can the options' transfer function be made of any data: are map and opacity known, and their files right? The same codes. */
+int tc_render_function_check(const tc_render_command *options, tc_talk *talk);
 
 /* Says what the reader noted. */
 void tc_source_notes_say(const tc_mesh *mesh, const char *input, tc_talk *talk);
