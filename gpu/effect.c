@@ -190,6 +190,11 @@ bool tc_effects_have_frame(const tc_effects *effects)
     return false;
 }
 
+bool tc_effects_are_plain(const tc_effects *e)
+{
+    return e->needs == 0 && !*e->shaders && !e->integrator && !tc_effects_have_frame(e);
+}
+
 tc_status tc_effects_compile(const tc_effects *effects, const tc_job *job, tc_error *err)
 {
     tc_status status = TC_OK;

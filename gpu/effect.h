@@ -47,6 +47,7 @@ typedef struct tc_effect_scene {
     double length_unit;                 /* as tc_job has it */
     int threads;
     void *memo; /* of the row that is asked whether it is wanted; NULL: nothing is kept */
+    bool clear; /* the function shows none of the values, and nothing else is to be seen: no ray will be walked */
 } tc_effect_scene;
 
 typedef struct tc_effect {
@@ -127,6 +128,8 @@ tc_status tc_effects_function(const tc_transfer **out, tc_effect_store *store, c
                               tc_error *err);
 /* Uploads what rows in force need, frees what others left. Errors: theirs. */
 tc_status tc_effects_update(tc_effects *effects, tc_effect_store *store, const tc_gl *gl, tc_error *err);
+/* Are colours those of the function along the walk alone? */
+bool tc_effects_are_plain(const tc_effects *effects);
 /* What rows make for each frame of rays; whether any does. Errors: as theirs. */
 bool tc_effects_have_frame(const tc_effects *effects);
 tc_status tc_effects_compile(const tc_effects *effects, const tc_job *job, tc_error *err);

@@ -137,3 +137,26 @@ int64_t tc_first_hit_entries(const tc_job *job)
         sum += counter[i * COUNTER_APART];
     return sum;
 }
+
+tc_status tc_first_hit_rays(int64_t *rays, const tc_job *job, tc_error *err)
+{
+    const tc_gl *gl = job->gl;
+    const tc_program_source source = {"screen.vert", "entered.frag", "", NULL, NULL};
+    GLuint program, query;
+    GLuint64 n = 0;
+    tc_status status = tc_program_get(&program, job->programs, &source, err);
+    if (status != TC_OK)
+        return status;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, job->state->lock_framebuffer);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->UseProgram(program);
+    tc_pass_texture(gl, program, "state_walk", 4, GL_TEXTURE_2D, job->state->set[0].walk);
+    gl->GenQueries(1, &query);
+    gl->BeginQuery(GL_SAMPLES_PASSED, query);
+    tc_pass_screen(gl);
+    gl->EndQuery(GL_SAMPLES_PASSED);
+    gl->GetQueryObjectui64v(query, GL_QUERY_RESULT, &n);
+    gl->DeleteQueries(1, &query);
+    *rays = (int64_t)n;
+    return tc_gl_check(gl, "counting the rays", err);
+}

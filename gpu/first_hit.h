@@ -15,6 +15,8 @@ tc_status tc_first_hit(const tc_job *job, int layer, tc_error *err);
 /* Behind the first layer, without peeling: the number of entries of all rays, whether the first of theirs or not. Waits
  * for the GL. */
 int64_t tc_first_hit_entries(const tc_job *job);
+/* Behind the first layer: the rays that have an entry. Binds framebuffers. Waits for the GL. Errors: TC_E_GL. */
+tc_status tc_first_hit_rays(int64_t *rays, const tc_job *job, tc_error *err);
 /* Of n corners proposed, how many lie on the GPU at a time. */
 size_t tc_first_hit_corners(size_t n);
 

@@ -83,6 +83,7 @@
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                                 \
     X(PFNGLISENABLEDPROC, IsEnabled)                                                                                   \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                               \
+    X(PFNGLMAPBUFFERRANGEPROC, MapBufferRange)                                                                         \
     X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)                                                                           \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                               \
     X(PFNGLPOLYGONMODEPROC, PolygonMode)                                                                               \
@@ -102,6 +103,7 @@
     X(PFNGLUNIFORM3FPROC, Uniform3f)                                                                                   \
     X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                                                                 \
     X(PFNGLUNIFORM4IPROC, Uniform4i)                                                                                   \
+    X(PFNGLUNMAPBUFFERPROC, UnmapBuffer)                                                                               \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                                 \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                                       \
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                               \

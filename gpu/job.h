@@ -55,6 +55,7 @@ typedef struct tc_job {
 
     int steps_per_pass, z_update_every; /* z_update_every < 0: never lock */
     bool count, audit;                  /* audit counts as well */
+    bool clear;                         /* the function shows none of the values: rays are counted, none is walked */
     bool planes;                        /* the stepper is the paper's arithmetic: stepper_planes.glsl, */
     double longest;                     /* … which needs to know the longest edge of the real cells, in mesh space */
     int last;                           /* as tc_job_result has it, for what comes behind the walk */

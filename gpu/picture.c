@@ -14,6 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { GROUP = 4 }; /* pixels along a side of what llvmpipe shades at once */
+
 /* The smallest rectangle that holds both; width 0: nothing. */
 static void unite_rects(int *rect, const int *other)
 {
@@ -37,6 +39,18 @@ static void intersect_rects(int *rect, const int *other)
         memset(rect, 0, 4 * sizeof *rect);
 }
 
+/* To whole groups of pixels that llvmpipe shades at once: of those at the border the lanes outside the scissor rectangle run, too,
+ * from wherever another picture left their rays, and the others wait for them. */
+static void widen_rect(int *rect, int width, int height)
+{
+    const int size[2] = {width, height};
+    for (int k = 0; k < 2 && rect[2] > 0; k++) {
+        const int end = (rect[k] + rect[2 + k] + GROUP - 1) / GROUP * GROUP;
+        rect[k] = rect[k] / GROUP * GROUP;
+        rect[2 + k] = (end < size[k] ? end : size[k]) - rect[k];
+    }
+}
+
 tc_status tc_picture_compile(tc_picture *p, tc_error *err)
 {
     const int samples = p->options->samples;
@@ -44,7 +58,7 @@ tc_status tc_picture_compile(tc_picture *p, tc_error *err)
     tc_frame_build(&rays, p->rays, p->center, p->scale);
     p->job->frame = &rays;
     p->job->masked = false;
-    tc_status status = p->job->driver->compile(p->job, err);
+    tc_status status = p->job->clear ? tc_first_hit_compile(p->job, err) : p->job->driver->compile(p->job, err);
     if (status == TC_OK)
         status = tc_accumulate_compile(p->job, samples, err);
     if (status == TC_OK && p->job->effects)
@@ -104,6 +118,18 @@ static void set_view(tc_job *job, const tc_picture *p)
     }
 }
 
+/* In place of a walk on which nothing would be gathered. */
+static tc_status count_rays(tc_job_result *out, const tc_job *job, tc_error *err)
+{
+    const double start = tc_now_ms();
+    tc_status status = tc_first_hit(job, 0, err);
+    if (status == TC_OK)
+        status = tc_first_hit_rays(&out->rays, job, err);
+    out->layers = out->rays > 0;
+    out->ms_first_hit = tc_now_ms() - start;
+    return status;
+}
+
 /* A frame: a ray through each pixel, or each marked one, at place k of a grid of edge * edge in it. touch: pixels that
  * it has to touch besides its own, or NULL. Gives result.twice above 0, and nothing else, where it has to be peeled. */
 static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_error *err)
@@ -124,8 +150,8 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
     int *rect = p->proposals->rect;
     p->proposals->n = 0;
     memset(rect, 0, sizeof p->proposals->rect);
-    tc_kept_view *view = edge > 1 ? NULL
-                                  : tc_kept_find(p->kept, job, p->mesh_serial, p->scalar_serial, p->options->width,
+    tc_kept_view *view = edge > 1 || job->clear ? NULL
+                                                : tc_kept_find(p->kept, job, p->mesh_serial, p->scalar_serial, p->options->width,
                                                  p->options->height);
     job->kept = view && view->recorded && view->cells <= job->steps_per_pass ? view : NULL;
     if (job->kept)
@@ -140,11 +166,13 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
         unite_rects(rect, touch);
     if (job->masked)
         intersect_rects(rect, p->marked);
+    if (job->software && !job->kept)
+        widen_rect(rect, p->options->width, p->options->height);
     gl->Enable(GL_SCISSOR_TEST); /* nothing is done where no face is seen */
     gl->Scissor(rect[0], rect[1], rect[2], rect[3]);
     if (status == TC_OK && effect_frame)
         status = tc_effects_frame(job->effects, job, err);
-    if (status == TC_OK && !job->kept && view && tc_kept_due(view)) {
+    if (status == TC_OK && !job->kept && view && tc_kept_due(p->kept, view)) {
         status = tc_kept_record(p->kept, view, job, err);
         job->kept = view->recorded && view->cells <= job->steps_per_pass ? view : NULL;
     }
@@ -152,7 +180,9 @@ static tc_status cast_rays(tc_picture *p, int k, int edge, const int *touch, tc_
         status = tc_kept_values(p->kept, view, job, p->scalar_serial, p->threads, err);
     double ms_propose = tc_now_ms() - start;
     if (status == TC_OK)
-        status = job->driver->frame(&one, job, err);
+        status = job->clear  ? count_rays(&one, job, err)
+                 : job->kept ? tc_kept_draw(&one, job, err)
+                             : job->driver->frame(&one, job, err);
     job->last = one.last;
     one.ms_first_hit += ms_propose;
     p->result.twice = one.twice;
@@ -177,6 +207,8 @@ static tc_status cast_grid(tc_picture *p, int edge, bool compare, tc_error *err)
         status = cast_rays(p, k, edge, compare ? p->drawn : NULL, err);
         if (status != TC_OK || p->result.twice > 0)
             return status;
+        if (p->job->clear || p->job->kept) /* nothing to add; all is in its place */
+            continue;
         status = tc_accumulate_add(p->job, 1.0 / (edge * edge), err);
         if (status == TC_OK && compare)
             status = tc_accumulate_spread(p->job, k == 0, err);
@@ -191,6 +223,7 @@ tc_status tc_picture_make(tc_picture *p, tc_error *err)
     free(p->result.fragments);
     memset(&p->result, 0, sizeof p->result);
     p->job->masked = false;
+    p->job->kept = NULL;
     p->stats->refined = adaptive ? 0 : -1;
     if (p->job->count)
         p->stats->steps = p->stats->steps_max = 0;

@@ -10,7 +10,6 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "gpu/first_hit.h"
-#include "gpu/kept.h"
 #include "gpu/march.h"
 #include "gpu/pass.h"
 
@@ -192,7 +191,7 @@ static tc_status march_layer(loop *l)
         return status;
     if (l->result->layers == 0)
         l->result->rays = l->open;
-    if (!job->peel && !job->kept) {
+    if (!job->peel) {
         l->result->twice = tc_first_hit_entries(job) - l->open;
         if (l->result->twice > 0)
             return TC_OK; /* not this way */
@@ -270,7 +269,7 @@ static tc_status frame(tc_job_result *out, const tc_job *job, tc_error *err)
     loop l = {.job = job, .result = out, .err = err};
     double start = tc_now_ms();
     tc_march_clear(job, 0);
-    tc_status status = job->kept ? tc_kept_begin(job, err) : tc_first_hit(job, 0, err);
+    tc_status status = tc_first_hit(job, 0, err);
     if (status == TC_OK)
         status = prepare_march(&l);
     gl->Finish();

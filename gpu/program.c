@@ -64,12 +64,18 @@ static int resolve(const assembly *a, const char *name, size_t n)
 
 /* The file of that name in the folder TETCAST_SHADERS names, 0-terminated, for the caller to free; NULL where the
  * embedded one is to be taken. For trying out changes without a build, and for tests that break a shader on purpose. */
+static const char *override_folder(void)
+{
+    const char *folder = getenv("TETCAST_SHADERS");
+    return folder && *folder ? folder : NULL;
+}
+
 static tc_status read_override(char **out, const char *name, tc_error *err)
 {
     *out = NULL;
-    const char *folder = getenv("TETCAST_SHADERS");
+    const char *folder = override_folder();
     char path[4096];
-    if (!folder || !*folder || snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path ||
+    if (!folder || snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path ||
         access(path, F_OK) != 0)
         return TC_OK;
     void *data;
@@ -273,10 +279,17 @@ typedef struct entry {
     bool used; /* since the last mark */
 } entry;
 
+typedef struct asked {
+    char *key;    /* source_key */
+    size_t place; /* among the entries */
+} asked;
+
 struct tc_program_cache {
     const tc_gl *gl;
     entry *entries;
     size_t n;
+    asked *asked;
+    size_t n_asked;
     double ms;
 };
 
@@ -366,9 +379,29 @@ static bool same(const char *a, const char *b)
     return a && b ? strcmp(a, b) == 0 : a == b;
 }
 
-tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_program_source *source, tc_error *err)
+/* What is asked for, as one text. malloc'd; NULL: out of memory. */
+static char *source_key(const tc_program_source *s)
 {
-    *program = 0;
+    const char *part[] = {s->vertex, s->fragment, s->defines, s->alias, s->effects};
+    enum { PARTS = sizeof part / sizeof *part };
+    size_t n = 1;
+    for (int i = 0; i < PARTS; i++)
+        n += (part[i] ? strlen(part[i]) : 0) + 1;
+    char *key = tc_alloc(n, 1), *at = key;
+    for (int i = 0; i < PARTS && key; i++) {
+        const size_t length = part[i] ? strlen(part[i]) : 0;
+        memcpy(at, part[i] ? part[i] : "", length);
+        at += length;
+        *at++ = '\x1f'; /* in no name and no line */
+    }
+    if (key)
+        *at = 0;
+    return key;
+}
+
+/* The program of the text that the source stands for, made if there is none: its place among the entries. */
+static tc_status find_program(size_t *place, tc_program_cache *cache, const tc_program_source *source, tc_error *err)
+{
     char *vertex = NULL, *fragment = NULL;
     tc_status status =
         source->vertex ? tc_program_text(&vertex, source->vertex, source->defines, source->alias, source->effects, err)
@@ -377,32 +410,61 @@ tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_prog
         status = tc_program_text(&fragment, source->fragment, source->defines, source->alias, source->effects, err);
     if (status != TC_OK)
         goto done;
-    for (size_t i = 0; i < cache->n; i++)
-        if (same(cache->entries[i].vertex, vertex) && same(cache->entries[i].fragment, fragment)) {
-            *program = cache->entries[i].program;
-            cache->entries[i].used = true;
+    for (*place = 0; *place < cache->n; ++*place)
+        if (same(cache->entries[*place].vertex, vertex) && same(cache->entries[*place].fragment, fragment))
             goto done;
-        }
     entry *grown = tc_realloc(cache->entries, cache->n + 1, sizeof *grown);
     if (!grown) {
         status = tc_fail_memory(err, "the program cache", cache->n + 1, sizeof *grown);
         goto done;
     }
     cache->entries = grown;
+    GLuint program;
     double start = tc_now_ms();
-    status = build(program, cache->gl, vertex, fragment, source, err);
+    status = build(&program, cache->gl, vertex, fragment, source, err);
     cache->ms += tc_now_ms() - start;
     if (status == TC_OK) {
         int file = file_index(source->fragment, strlen(source->fragment));
         grown[cache->n++] = (entry){
-            vertex, fragment, *program, tc_shader_files[file].name, strlen(fragment) + (vertex ? strlen(vertex) : 0),
-            true};
+            vertex, fragment, program, tc_shader_files[file].name, strlen(fragment) + (vertex ? strlen(vertex) : 0),
+            false};
         vertex = fragment = NULL;
     }
 done:
     free(vertex);
     free(fragment);
     return status;
+}
+
+tc_status tc_program_get(GLuint *program, tc_program_cache *cache, const tc_program_source *source, tc_error *err)
+{
+    *program = 0;
+    char *key = source_key(source);
+    size_t place = 0, k = 0;
+    if (!key)
+        return tc_fail_memory(err, "the program cache", 1, 1024);
+    while (k < cache->n_asked && strcmp(cache->asked[k].key, key) != 0)
+        k++;
+    if (override_folder()) /* files may have changed */
+        k = cache->n_asked;
+    if (k < cache->n_asked) { /* as nearly always: texts of programs are long to put together */
+        free(key);
+        place = cache->asked[k].place;
+    } else {
+        tc_status status = find_program(&place, cache, source, err);
+        asked *grown = status == TC_OK ? tc_realloc(cache->asked, cache->n_asked + 1, sizeof *grown) : NULL;
+        if (grown) {
+            cache->asked = grown;
+            grown[cache->n_asked++] = (asked){key, place};
+        } else {
+            free(key);
+        }
+        if (status != TC_OK)
+            return status;
+    }
+    *program = cache->entries[place].program;
+    cache->entries[place].used = true;
+    return TC_OK;
 }
 
 void tc_program_cache_mark(tc_program_cache *cache)
@@ -436,7 +498,10 @@ void tc_program_cache_destroy(tc_program_cache **cache)
         free((*cache)->entries[i].vertex);
         free((*cache)->entries[i].fragment);
     }
+    for (size_t i = 0; i < (*cache)->n_asked; i++)
+        free((*cache)->asked[i].key);
     free((*cache)->entries);
+    free((*cache)->asked);
     free(*cache);
     *cache = NULL;
 }

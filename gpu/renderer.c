@@ -113,9 +113,10 @@ void tc_gpu_renderer_release(tc_gpu_renderer *renderer)
     tc_context_release(renderer->context);
 }
 
-void tc_gpu_renderer_keep(tc_gpu_renderer *renderer, size_t bytes)
+void tc_gpu_renderer_keep(tc_gpu_renderer *renderer, size_t bytes, bool at_once)
 {
     renderer->kept.most = bytes;
+    renderer->kept.at_once = at_once;
 }
 
 const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer)
@@ -360,6 +361,18 @@ static tc_status peel_picture(tc_picture *picture, tc_gpu_renderer *r, tc_error 
     return status == TC_OK ? tc_picture_make(picture, err) : status;
 }
 
+/* Is there nothing to see, whatever cells rays go through? Where steps are to be counted they are walked all the same. */
+static bool shows_nothing(const tc_gpu_renderer *r, const tc_gpu_frame *frame)
+{
+    const tc_render_options *o = frame->options;
+    const tc_look *look = o->look;
+    const bool by_opacity = !look || look->model == TC_MODEL_DENSITY_EMITTER || look->model == TC_MODEL_EMISSION ||
+                            look->model == TC_MODEL_ABSORPTION || look->model == TC_MODEL_XRAY;
+    return by_opacity && (!look || (look->n_iso == 0 && look->n_geometry == 0)) && !o->count && !o->audit &&
+           !o->has_nan_color && !o->without && o->stepper == TC_STEPPER_SIGNS &&
+           tc_transfer_peak(frame->transfer, r->scalar_lo, r->scalar_hi) == 0;
+}
+
 /* What the picture calls for, and the function it is made with. */
 static tc_status prepare_effects(tc_effects *out, const tc_transfer **function, tc_gpu_renderer *r,
                                  const tc_gpu_frame *frame, double length_unit, tc_error *err)
@@ -375,11 +388,12 @@ static tc_status prepare_effects(tc_effects *out, const tc_transfer **function, 
         .scalar = {r->scalar_lo, r->scalar_hi},
         .length_unit = length_unit,
         .threads = r->threads,
+        .clear = shows_nothing(r, frame),
     };
     tc_status status = tc_effects_choose(out, &r->effects, &scene, err);
     if (status == TC_OK)
         status = tc_effects_function(function, &r->effects, out, err);
-    return status == TC_OK ? tc_effects_update(out, &r->effects, &r->context->gl, err) : status;
+    return status == TC_OK && !scene.clear ? tc_effects_update(out, &r->effects, &r->context->gl, err) : status;
 }
 
 tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu_frame *frame, tc_error *err)
@@ -452,6 +466,7 @@ tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *r, const tc_gpu
                                                                : OPACITY_STOP;
     job.transmittance_stop = effects.needs & TC_NEEDS_NUMBERS ? 0 : stop >= 1 ? -1 : 1 - stop;
     job.count = options->count || options->audit;
+    job.clear = effects.scene.clear;
     job.audit = options->audit;
     job.planes = planes;
     job.longest = mesh->report.longest_edge * r->scale;
@@ -527,15 +542,19 @@ tc_status tc_gpu_read(float *rgba, tc_render_stats *stats, tc_gpu_renderer *r, t
         return status;
     const tc_gl *gl = &r->context->gl;
     double start = tc_now_ms();
-    int width = r->state.width, height = r->state.height;
-    size_t row_floats = 4 * (size_t)width;
+    const int width = r->state.width, height = r->state.height;
+    const int all[4] = {0, 0, width, height}, *rect = gl->poison ? all : r->drawn; /* the rest of rgba is 0 */
+    const size_t row = 4 * (size_t)width, row_drawn = 4 * (size_t)rect[2];
+    float *drawn = rgba + (size_t)(height - rect[1] - rect[3]) * row + 4 * (size_t)rect[0];
     gl->BindFramebuffer(GL_FRAMEBUFFER, r->state.result_framebuffer);
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl->ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, rgba);
-    for (int y = 0; y < height / 2; y++) { /* GL's row 0 is at the bottom */
-        float *a = rgba + (size_t)y * row_floats, *b = rgba + (size_t)(height - 1 - y) * row_floats;
-        for (size_t i = 0; i < row_floats; i++) {
+    gl->PixelStorei(GL_PACK_ROW_LENGTH, width);
+    gl->ReadPixels(rect[0], rect[1], rect[2], rect[3], GL_RGBA, GL_FLOAT, drawn);
+    gl->PixelStorei(GL_PACK_ROW_LENGTH, 0);
+    for (int y = 0; y < rect[3] / 2; y++) { /* GL's row 0 is at the bottom */
+        float *a = drawn + (size_t)y * row, *b = drawn + (size_t)(rect[3] - 1 - y) * row;
+        for (size_t i = 0; i < row_drawn; i++) {
             float t = a[i];
             a[i] = b[i];
             b[i] = t;

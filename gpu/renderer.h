@@ -26,14 +26,15 @@ tc_status tc_gpu_renderer_create(tc_gpu_renderer **out, const char *name, tc_get
 void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer);
 /* Takes its context from the calling thread, so that the next call may come from another one. */
 void tc_gpu_renderer_release(tc_gpu_renderer *renderer);
-/* How many bytes of walks may be kept (kept.h); 0, as at first: none. */
-void tc_gpu_renderer_keep(tc_gpu_renderer *renderer, size_t bytes);
+/* How many bytes of walks may be kept (kept.h); 0, as at first: none. at_once: a view comes often. */
+void tc_gpu_renderer_keep(tc_gpu_renderer *renderer, size_t bytes, bool at_once);
 const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer);
 
 /* Packs, uploads and compiles what changed, then renders; the result stays in a texture. Fills stats.
  * Errors: TC_E_GL, TC_E_MEMORY, TC_E_LOST (the picture is there). */
 tc_status tc_gpu_render(tc_render_stats *stats, tc_gpu_renderer *renderer, const tc_gpu_frame *frame, tc_error *err);
-/* The last result as an image, row 0 at the top. rgba [height][width][4], the caller's. */
+/* The last result as an image, row 0 at the top. rgba [height][width][4], the caller's, zeros: where nothing was drawn it
+ * stays as it is. */
 tc_status tc_gpu_read(float *rgba, tc_render_stats *stats, tc_gpu_renderer *renderer, tc_error *err);
 /* tc_render_explain. */
 tc_status tc_gpu_explain(tc_explanation *out, const tc_gpu_renderer *renderer, tc_error *err);

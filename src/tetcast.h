@@ -324,6 +324,8 @@ typedef struct tc_knot {
 TC_API tc_status tc_transfer_from_knots(tc_transfer **out, const tc_knot *knot, size_t n, tc_error *err);
 /* The knots in force, borrowed. */
 TC_API const tc_knot *tc_transfer_knots(const tc_transfer *tf, size_t *n);
+/* The greatest attenuation that it gives to values from lo to hi, ends included. */
+TC_API double tc_transfer_peak(const tc_transfer *tf, double lo, double hi);
 TC_API const char *tc_transfer_name(const tc_transfer *tf);
 /* Writes a ParaView preset (.json, or .xml by extension). */
 TC_API tc_status tc_transfer_write(const tc_transfer *tf, const char *path, tc_error *err);
@@ -402,6 +404,8 @@ typedef struct tc_renderer_options {
     size_t keep_bytes;  /* of walks that may be kept: a view of a mesh that comes again, with other values or another function,
                            is then not walked again. In software renderers, of plain pictures of point data by the integrators
                            TABLE and INTEGRAL, which are the same bit by bit; 0: none */
+    bool keep_at_once;  /* every view comes again, four times and more: its walk is kept from its first picture on. Else from
+                           the second with other values, or the third; keeping takes as long as two pictures */
 } tc_renderer_options;
 
 /* options NULL: all defaults. Driver auto takes pingpong in a software GL and compute on a GPU; where no GL context can be

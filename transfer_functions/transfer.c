@@ -145,6 +145,26 @@ void tc_transfer_evaluate(double out[4], const tc_transfer *tf, double s)
     out[3] = a->a + t * (b->a - a->a);
 }
 
+double tc_transfer_peak(const tc_transfer *tf, double lo, double hi)
+{
+    const tc_knot *first = tf->knot, *last = &tf->knot[tf->n - 1];
+    double peak = 0;
+    if (lo < first->s)
+        peak = fmax(peak, first->a);
+    if (hi > last->s)
+        peak = fmax(peak, last->a);
+    for (const tc_knot *k = first; k <= last; k++)
+        if (k->s >= lo && k->s <= hi)
+            peak = fmax(peak, k->a);
+    for (const tc_knot *k = first; k < last; k++) {
+        const double end[2] = {lo, hi};
+        for (int e = 0; e < 2; e++)
+            if (k[0].s < end[e] && end[e] < k[1].s)
+                peak = fmax(peak, k[0].a + (k[1].a - k[0].a) * ((end[e] - k[0].s) / (k[1].s - k[0].s)));
+    }
+    return peak;
+}
+
 void tc_transfer_span(double out[2], const tc_transfer *tf)
 {
     out[0] = tf->knot[0].s;

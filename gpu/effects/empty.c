@@ -145,6 +145,8 @@ static bool wanted(char *why, const tc_effect_scene *scene)
     const tc_mesh *mesh = scene->mesh;
     const char *instead = looks_at_cells(scene);
     empty_count found = key_of(scene), *kept = scene->memo;
+    if (!instead && scene->clear)
+        instead = "the function shows none of the values, so that no ray is walked";
     if (!instead && !has_gap(scene->transfer, scene->scalar))
         instead = "the function is transparent nowhere";
     if (instead) {

@@ -14,7 +14,7 @@
 uniform isampler2D state_walk; // entries: cell, a, b, c
 #ifdef RECORD
 uniform isampler2D kept_first; // the ray's first record
-layout(std430, binding = 1) writeonly restrict buffer Records {
+layout(std430, binding = 0) writeonly restrict buffer Records {
     int records[]; // three of ids, four of bits of floats
 };
 #endif

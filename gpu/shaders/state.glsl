@@ -1,5 +1,11 @@
 // state.glsl: what the accumulated colour texture means. Its fourth channel is the optical depth so far (running integrals,
 // COLOR_HOLDS_DEPTH) or the transmittance (table).
+#ifdef COLOR_HOLDS_DEPTH
+const vec4 STATE_EMPTY = vec4(0.0); // tc_march_clear
+#else
+const vec4 STATE_EMPTY = vec4(0.0, 0.0, 0.0, 1.0);
+#endif
+
 float state_transmittance(vec4 color)
 {
 #ifdef COLOR_HOLDS_DEPTH

@@ -165,7 +165,7 @@ static tc_status gl_create(tc_renderer *r, const tc_renderer_options *options, c
     tc_status status =
         tc_gpu_renderer_create(&r->gpu, options->gl, options->get_proc_address, options->threads, log, err);
     if (status == TC_OK)
-        tc_gpu_renderer_keep(r->gpu, options->keep_bytes);
+        tc_gpu_renderer_keep(r->gpu, options->keep_bytes, options->keep_at_once);
     return status;
 }
 

@@ -217,6 +217,13 @@ tc_status tc_png_row(tc_png *png, const float *rgba, tc_error *err)
     return result(png, put_row(png), err);
 }
 
+tc_status tc_png_again(tc_png *png, tc_error *err)
+{
+    png->err = err;
+    memcpy(png->row, png->above, (size_t)png->width * png->pixel);
+    return result(png, put_row(png), err);
+}
+
 tc_status tc_png_end(tc_png *png, tc_error *err)
 {
     png->err = err;

@@ -142,11 +142,19 @@ static tc_status begin_png(tc_image_stream *s, const tc_image_encoding *how, con
 
 static tc_status put_png(tc_image_stream *s, const float *rgba, int rows, tc_error *err)
 {
+    const size_t row = 4 * (size_t)s->width;
+    size_t glowing = 0, open = 0; /* of the row */
     tc_status status = TC_OK;
-    for (int y = 0; y < rows && status == TC_OK; y++, rgba += 4 * (size_t)s->width) {
-        status = tc_image_check_rows(&s->glowing, &s->open, rgba, s->width, 1, s->rows, err);
+    for (int y = 0; y < rows && status == TC_OK; y++, rgba += row) {
+        const bool again = y > 0 && memcmp(rgba, rgba - row, row * sizeof *rgba) == 0; /* background above and below */
+        if (!again) {
+            glowing = open = 0;
+            status = tc_image_check_rows(&glowing, &open, rgba, s->width, 1, s->rows, err);
+        }
+        s->glowing += glowing;
+        s->open += open;
         if (status == TC_OK)
-            status = told(tc_png_row(s->png, rgba, err), s, err);
+            status = told(again ? tc_png_again(s->png, err) : tc_png_row(s->png, rgba, err), s, err);
         if (s->rows % PROGRESS_ROWS == 0)
             tc_progress(&s->log, "writing image", (double)s->rows / s->height);
         s->rows += status == TC_OK;

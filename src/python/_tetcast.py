@@ -101,7 +101,7 @@ tc_look = _struct(
     ("geometry", c_void_p))
 tc_renderer_options = _struct(
     "tc_renderer_options", ("gl", c_char_p), ("driver", c_char_p), ("get_proc_address", c_void_p), ("threads", c_int),
-    ("keep_bytes", c_size_t))
+    ("keep_bytes", c_size_t), ("keep_at_once", c_bool))
 tc_render_options = _struct(
     "tc_render_options", ("width", c_int), ("height", c_int), ("whole_width", c_int), ("whole_height", c_int),
     ("part_x", c_int), ("part_y", c_int), ("integrator", c_int), ("table_size", c_int * 3), ("table_format", c_int),

@@ -87,7 +87,7 @@ static void must_say(const tc_error *err, const char *part)
         fail_msg("\"%s\" does not say \"%s\"", err->text, part);
 }
 
-/* Random premultiplied pixels, reproducible. */
+/* Random premultiplied pixels, reproducible; rows of which some come several times. */
 static tc_image *noise(int width, int height, bool opaque)
 {
     tc_image *image;
@@ -104,6 +104,9 @@ static tc_image *noise(int width, int height, bool opaque)
             image->rgba[4 * i + (size_t)c] = v[c] * alpha;
         image->rgba[4 * i + 3] = alpha;
     }
+    const size_t row = 4 * (size_t)width;
+    for (int y = 3; y < height; y += y % 8 == 7 ? 4 : 1) /* some rows again */
+        memcpy(image->rgba + row * (size_t)y, image->rgba + row * (size_t)(y - 1), row * sizeof(float));
     return image;
 }
 

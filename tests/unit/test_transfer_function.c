@@ -53,6 +53,18 @@ static void step_at_the_ends_is_lost(void **state)
     tc_transfer_destroy(&tf);
 }
 
+static void the_peak_is_elsewhere(void **state)
+{
+    (void)state;
+    const tc_knot knot[] = {{0, 0, 0, 0, 0}, {1, 0, 0, 0, 0}, {2, 0, 0, 0, 4}, {2, 0, 0, 0, 1}, {3, 0, 0, 0, 0.5}};
+    const double range[][3] = {{0, 1, 0},   {-5, 1, 0},   {0.2, 0.8, 0}, {0, 1.5, 2}, {1.25, 1.75, 3}, {0, 9, 4},
+                               {2, 2, 4},   {2.5, 9, 0.75}, {3, 3, 0.5},   {4, 9, 0.5}, {-2, -1, 0},     {1, 1, 0}};
+    tc_transfer *tf = make(knot, 5);
+    for (size_t i = 0; i < sizeof range / sizeof *range; i++)
+        assert_float_equal(tc_transfer_peak(tf, range[i][0], range[i][1]), range[i][2], 1e-15);
+    tc_transfer_destroy(&tf);
+}
+
 static void single_knot_or_zero_width_gives_an_empty_span(void **state)
 {
     (void)state;
@@ -244,6 +256,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(evaluation_takes_wrong_side_of_a_step),
         cmocka_unit_test(step_at_the_ends_is_lost),
+        cmocka_unit_test(the_peak_is_elsewhere),
         cmocka_unit_test(single_knot_or_zero_width_gives_an_empty_span),
         cmocka_unit_test(bad_knots_are_taken),
         cmocka_unit_test(serial_does_not_follow_the_knots),

@@ -143,12 +143,13 @@ static double tc_files_helper(const tc_frame_files *files)
     return most;
 }
 
+/* The figure that is told is enough for another run, too, whose threads take turns otherwise. */
 static int tc_memory_end(tc_run *r, const char *what, double used)
 {
     const double most = (double)r->scene->look[0].memory;
     r->ended = true;
     tc_talk_error(r->talk, "%s %.0f MiB of memory, and --memory is %.0f MiB: allow more, or make --size smaller", what,
-                  ceil(used / 1048576), most / 1048576);
+                  ceil(used * 1.01 / 1048576), most / 1048576);
     return TC_EXIT_FAILED;
 }
 

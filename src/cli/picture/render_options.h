@@ -73,7 +73,7 @@ typedef struct tc_render_command {
     const char *stats;
     uint64_t seed;
 
-    size_t keep_bytes; /* as of tc_renderer_options; of a batch */
+    size_t keep_bytes; /* as of tc_renderer_options, and at once; of a batch, where each view comes often */
     double error, frame_time; /* 0: not asked for */
     bool no_cache;
 } tc_render_command;

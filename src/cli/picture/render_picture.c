@@ -22,7 +22,11 @@ int tc_frames_make(tc_frames *out, const tc_render_command *options, tc_talk *ta
 {
     size_t n = (size_t)options->repeat;
     *out = (tc_frames){
-        .make = {.gl = options->gl, .driver = options->driver, .threads = options->source.threads, .keep_bytes = options->keep_bytes},
+        .make = {.gl = options->gl,
+                 .driver = options->driver,
+                 .threads = options->source.threads,
+                 .keep_bytes = options->keep_bytes,
+                 .keep_at_once = true},
         .frame = calloc(n, 4 * sizeof(double)),
     };
     if (!out->frame) {
@@ -161,8 +165,25 @@ double tc_picture_peak(const tc_render_run *run, const tc_image *image)
     return look && look->model == TC_MODEL_EMISSION ? tc_image_light(image) : (double)tc_image_peak(image);
 }
 
+/* Is some pixel opaque enough? Sought from the middle on, where it is found at once. */
+static bool tc_is_seen(const tc_image *image)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height, half = n / 2;
+    for (size_t i = half; i < n; i++)
+        if (image->rgba[4 * i + 3] >= (float)TC_VISIBLE)
+            return true;
+    for (size_t i = 0; i < half; i++)
+        if (image->rgba[4 * i + 3] >= (float)TC_VISIBLE)
+            return true;
+    return false;
+}
+
 bool tc_picture_is_empty(char *why, size_t capacity, const tc_render_run *run)
 {
+    const tc_look *look = run->render.look;
+    *why = 0;
+    if (!(look && look->model == TC_MODEL_EMISSION) && tc_is_seen(run->image))
+        return false;
     return tc_peak_is_empty(why, capacity, run, tc_picture_peak(run, run->image));
 }
 

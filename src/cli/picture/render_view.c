@@ -52,31 +52,6 @@ float tc_image_peak(const tc_image *image)
     return peak;
 }
 
-/* Greatest attenuation that the function gives to scalars from lo to hi. */
-static double tc_opacity_peak(const tc_transfer *tf, double lo, double hi)
-{
-    size_t n = 0;
-    double peak = 0;
-    const tc_knot *knot = tc_transfer_knots(tf, &n);
-    if (n == 0)
-        return 0;
-    if (lo < knot[0].s)
-        peak = fmax(peak, knot[0].a);
-    if (hi > knot[n - 1].s)
-        peak = fmax(peak, knot[n - 1].a);
-    for (size_t i = 0; i < n; i++)
-        if (knot[i].s >= lo && knot[i].s <= hi)
-            peak = fmax(peak, knot[i].a);
-    for (size_t i = 0; i + 1 < n; i++) {
-        const tc_knot *a = &knot[i], *b = &knot[i + 1];
-        double end[2] = {lo, hi};
-        for (int e = 0; e < 2; e++)
-            if (a->s < end[e] && end[e] < b->s)
-                peak = fmax(peak, a->a + (b->a - a->a) * ((end[e] - a->s) / (b->s - a->s)));
-    }
-    return peak;
-}
-
 static double tc_dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -140,7 +115,7 @@ void tc_empty_reason(char *why, size_t capacity, const tc_mesh_report *report, c
     const tc_knot *knot = tc_transfer_knots(tf, &n);
     tc_box_in_view(depth, &aside, b, camera, size);
     bool missing = report->nonfinite_cells > 0 && report->nonfinite_cells >= report->n_tet;
-    double peak = missing && nan_color ? nan_color[3] : tc_opacity_peak(tf, lo, hi);
+    double peak = missing && nan_color ? nan_color[3] : tc_transfer_peak(tf, lo, hi);
     if (missing && nan_color && peak <= 0)
         snprintf(why, capacity,
                  "every cell has a value of %s that is not finite, and the attenuation A of --nan-color R,G,B,A is 0; "
