@@ -1,0 +1,80 @@
+/* session.h: all that one window is about, without the window: data, function, camera, look, and who wants to know of changes. No
+ * GTK here. Calls come from the main thread. */
+#ifndef TC_WINDOW_SESSION_H
+#define TC_WINDOW_SESSION_H
+
+#include "cli/picture/render_setup.h"
+#include "edit/history.h"
+#include "edit/trace.h"
+#include "tetcast_probe.h"
+
+/* What changed; bits. */
+typedef enum tc_change {
+    TC_CHANGE_FUNCTION = 1,  /* the document, but for what is selected */
+    TC_CHANGE_SELECTION = 2, /* which points and colours are */
+    TC_CHANGE_CAMERA = 4,
+    TC_CHANGE_LOOK = 8,      /* any other option that makes the picture */
+    TC_CHANGE_DATA = 16,     /* mesh, field or step: the run, its report and the histogram are new */
+    TC_CHANGE_HISTORY = 32,  /* what can be undone */
+    TC_CHANGE_BUSY = 64      /* something is being read, or no longer */
+} tc_change;
+
+typedef void tc_session_heard(void *user, unsigned changes);
+
+typedef struct tc_session {
+    tc_talk talk;
+    tc_trace *trace;
+    tc_render_command options; /* of the command line, or of the scene that was opened; --opacity, --color-map, --range, --log,
+                                  --unit-distance and the camera's are those of the beginning: document and camera hold now */
+    tc_render_run run;         /* mesh (NULL: none yet), report, look and render options */
+    tc_document *document;     /* never NULL */
+    tc_history *history;
+    tc_camera camera, home;    /* home: as it was opened */
+    tc_histogram *histogram;   /* of the field, 1024 bins over its range; NULL: not there yet */
+    bool by_volume;            /* … weighted by the cells' volume */
+    bool moving;               /* the user's hand is on something: pictures are to be there soon */
+    unsigned gesture;          /* a number for it, new with each; 0: none */
+    bool busy;
+    char said[1024];           /* the last sentence to the user; "" none */
+    size_t n_listener;
+    struct {
+        tc_session_heard *heard;
+        void *user;
+    } listener[16];
+} tc_session;
+
+/* From the command line of `edit`: its options are those of `render` that make a picture, INPUT as there. Nothing is read yet. -1, or the exit code
+ * of an error that was printed. */
+int tc_session_open(tc_session *session, const tc_command *command, int argc, char **argv);
+void tc_session_close(tc_session *session);
+
+/* heard is called with changes until the session closes. */
+void tc_session_listen(tc_session *session, tc_session_heard *heard, void *user);
+/* Tells all of them. */
+void tc_session_tell(tc_session *session, unsigned changes);
+/* The document was edited in place: pushes it onto the history (what: "move points"; NULL: not, as selections are not) and tells. While
+ * session->gesture is not 0 all of it is one step. */
+void tc_session_edited(tc_session *session, const char *what);
+/* A hand on something; off it again. Between them pictures are coarse. */
+void tc_session_grab(tc_session *session);
+void tc_session_release(tc_session *session);
+void tc_session_undo(tc_session *session);
+void tc_session_redo(tc_session *session);
+/* Takes the place of the document, as one step. */
+void tc_session_take(tc_session *session, tc_document *document, const char *what);
+
+/* Reads and prepares the data on a thread (done: on the main thread's loop, by g_idle_add of the caller's; see loader.h), then: takes run, report and, the
+ * first time, the document and camera of the options. */
+void tc_session_loaded(tc_session *session, tc_render_run *run);
+
+/* Sets an option of `render` as if it were given on the command line ("--iso", "0.5"; text NULL: takes it away), and makes the look anew. False, and
+ * the sentence in said: it cannot be, and all is as it was. Field, step and time are not set so: see loader.h. */
+bool tc_session_set(tc_session *session, const char *option, const char *text);
+/* Its text as it is now; NULL: not given. */
+const char *tc_session_get(const tc_session *session, const char *option);
+
+/* The scene as JSON text that makes this picture, and the command line of `render`; from malloc. The function goes into it as a preset. */
+char *tc_session_scene(const tc_session *session);
+char *tc_session_command(const tc_session *session);
+
+#endif
