@@ -16,7 +16,8 @@ typedef enum tc_change {
     TC_CHANGE_LOOK = 8,      /* any other option that makes the picture */
     TC_CHANGE_DATA = 16,     /* mesh, field or step: the run, its report and the histogram are new */
     TC_CHANGE_HISTORY = 32,  /* what can be undone */
-    TC_CHANGE_BUSY = 64      /* something is being read, or no longer */
+    TC_CHANGE_BUSY = 64,     /* something is being read, or no longer */
+    TC_CHANGE_SAID = 128     /* said */
 } tc_change;
 
 typedef void tc_session_heard(void *user, unsigned changes);
@@ -72,6 +73,13 @@ void tc_session_loaded(tc_session *session, tc_render_run *run);
 bool tc_session_set(tc_session *session, const char *option, const char *text);
 /* Its text as it is now; NULL: not given. */
 const char *tc_session_get(const tc_session *session, const char *option);
+
+/* A sentence for the user into said, and tells. */
+void tc_session_say(tc_session *session, const char *format, ...) TC_CLI_PRINTF(2, 3);
+/* Another INPUT and its options in the place of what is there, argv as of tc_session_open: data, a scene, a picture that carries one. The options are
+ * taken; nothing is read yet: start the loader; document and camera become those of the new options when it has loaded, the document as
+ * one step that can be undone. False, and the sentence in said: it cannot be, and all is as it was. */
+bool tc_session_reopen(tc_session *session, int argc, char **argv);
 
 /* The scene as JSON text that makes this picture, and the command line of `render`; from malloc. The function goes into it as a preset. */
 char *tc_session_scene(const tc_session *session);
