@@ -332,6 +332,11 @@ TC_API tc_status tc_transfer_write(const tc_transfer *tf, const char *path, tc_e
 TC_API void tc_transfer_destroy(tc_transfer **tf);
 /* Names of the built-in maps; *n gets their count. */
 TC_API const char *const *tc_transfer_builtin(size_t *n);
+typedef struct tc_text_pair tc_text_pair;
+/* All maps of color_map, as of tc_transfer_options, in their order: of each its name (key) and, as value, a preset of it alone in clean JSON, which
+ * that option takes again; points are in order, IndexedColors are points. Those that cannot be used are left out. *out [*n] is one block from malloc
+ * with all texts in it. Errors: as tc_transfer_create. Cost: reads the file once. */
+TC_API tc_status tc_transfer_presets(tc_text_pair **out, size_t *n, const char *color_map, tc_error *err);
 
 /* A function that errors and times are measured with: "smooth", "knots12", "spike" or "steps". */
 typedef struct tc_standard_function {
@@ -426,6 +431,11 @@ TC_API tc_status tc_renderer_begin(tc_renderer_start **out, const tc_renderer_op
  * the first call that renders. What tc_renderer_create had to say goes to log now. *start is freed. out NULL: the renderer
  * is not wanted any more. */
 TC_API tc_status tc_renderer_end(tc_renderer **out, tc_renderer_start **start, const tc_log *log, tc_error *err);
+/* From the next picture on as keep_bytes and keep_at_once of tc_renderer_options; 0: pictures neither go along walks that are
+ * kept nor are walks kept, but those that are there stay, for when bytes are given again. */
+TC_API void tc_renderer_keep(tc_renderer *renderer, size_t keep_bytes, bool keep_at_once);
+/* Frees the walks that are kept: the views that they are of will not come again. A host's context must be current. */
+TC_API void tc_renderer_forget(tc_renderer *renderer);
 /* Frees what is in the GL context, and the context if it is the renderer's own. A host's context must be current. */
 TC_API void tc_renderer_destroy(tc_renderer **renderer);
 

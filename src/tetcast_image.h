@@ -12,9 +12,9 @@ typedef struct tc_image {
     float *rgba; /* [height][width][4] */
 } tc_image;
 
-typedef struct tc_text_pair {
+struct tc_text_pair {
     const char *key, *value;
-} tc_text_pair;
+};
 
 TC_API tc_status tc_image_create(tc_image **out, int width, int height, tc_error *err);
 TC_API void tc_image_destroy(tc_image **image);

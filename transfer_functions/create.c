@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "transfer_functions/builtin.h"
 #include "transfer_functions/preset.h"
+#include "transfer_functions/preset_read.h"
 #include "transfer_functions/resolve.h"
 
 #include <ctype.h>
@@ -100,21 +101,31 @@ static tc_status load_preset(tc_preset **out, const char *from, const char *name
     return status;
 }
 
+/* Of the built-in map of that name; their number: none is. */
+static size_t builtin_index(const char *name)
+{
+    size_t n, i = 0;
+    const char *const *builtin = tc_transfer_builtin(&n);
+    while (i < n && !tc_preset_name_equal(builtin[i], name))
+        i++;
+    return i;
+}
+
 static tc_status load_color_map(tc_preset **out, const tc_transfer_options *options, tc_error *err)
 {
     const char *name = options->color_map && *options->color_map ? options->color_map : "Cool to Warm";
     size_t n;
     const char *const *builtin = tc_transfer_builtin(&n);
-    for (size_t i = 0; i < n; i++)
-        if (tc_preset_name_equal(builtin[i], name)) {
-            if (options->preset)
-                return tc_fail(err, TC_E_ARG,
-                               "the preset \"%.80s\" is of a file, but the colour map \"%s\" is a built-in one: leave "
-                               "the preset out, or give a .json or .xml file as the colour map",
-                               options->preset, builtin[i]);
-            *out = tc_builtin_preset(i);
-            return *out ? TC_OK : tc_fail_memory(err, "a built-in colour map", 1, sizeof **out);
-        }
+    const size_t i = builtin_index(name);
+    if (i < n && options->preset)
+        return tc_fail(err, TC_E_ARG,
+                       "the preset \"%.80s\" is of a file, but the colour map \"%s\" is a built-in one: leave "
+                       "the preset out, or give a .json or .xml file as the colour map",
+                       options->preset, builtin[i]);
+    if (i < n) {
+        *out = tc_builtin_preset(i);
+        return *out ? TC_OK : tc_fail_memory(err, "a built-in colour map", 1, sizeof **out);
+    }
     if (is_preset_text(name) || looks_like_file(name))
         return load_preset(out, name, options->preset, err);
     char nearest[300];
@@ -122,6 +133,79 @@ static tc_status load_color_map(tc_preset **out, const tc_transfer_options *opti
     return tc_fail(err, TC_E_ARG,
                    "there is no colour map \"%.80s\"; the nearest built-in ones are %s; or give a .json or .xml file",
                    name, nearest);
+}
+
+/* Names and texts of those in the list that can be used. */
+static tc_status texts_of(tc_text_pair **out, size_t *n, const tc_preset_list *list, const char *path, tc_error *err)
+{
+    char **text = tc_calloc(list->n, sizeof *text);
+    size_t bytes = 0, used = 0;
+    tc_text_pair *pair = NULL;
+    tc_status status = text ? TC_OK : tc_fail_memory(err, path, list->n, sizeof *text);
+    for (size_t i = 0; i < list->n && status == TC_OK; i++) {
+        if (list->preset[i]->problem)
+            continue;
+        if (!(text[i] = tc_preset_text(list->preset[i])))
+            status = tc_fail_memory(err, path, list->preset[i]->n_color, 100);
+        else
+            bytes += strlen(list->preset[i]->name) + strlen(text[i]) + 2;
+    }
+    if (status == TC_OK && bytes == 0) {
+        const tc_preset *any;
+        status = tc_preset_choose(&any, list, NULL, path, err); /* says what is wrong with the first */
+    }
+    if (status == TC_OK && !(pair = tc_alloc(list->n * sizeof *pair + bytes, 1)))
+        status = tc_fail_memory(err, path, bytes, 1);
+    char *at = pair ? (char *)(pair + list->n) : NULL;
+    for (size_t i = 0; i < list->n && status == TC_OK; i++) {
+        if (!text[i])
+            continue;
+        const size_t name = strlen(list->preset[i]->name) + 1, length = strlen(text[i]) + 1;
+        memcpy(at, list->preset[i]->name, name);
+        memcpy(at + name, text[i], length);
+        pair[used++] = (tc_text_pair){at, at + name};
+        at += name + length;
+    }
+    for (size_t i = 0; text && i < list->n; i++)
+        free(text[i]);
+    free(text);
+    *out = pair;
+    *n = used;
+    return status;
+}
+
+tc_status tc_transfer_presets(tc_text_pair **out, size_t *n, const char *color_map, tc_error *err)
+{
+    tc_preset_list list = {0};
+    tc_status status;
+    if (!out || !n)
+        return tc_fail(err, TC_E_ARG, "no place to put the colour maps");
+    *out = NULL;
+    *n = 0;
+    size_t builtin;
+    tc_transfer_builtin(&builtin);
+    const char *path = color_map && *color_map ? color_map : "Cool to Warm";
+    const bool text = is_preset_text(path);
+    if (text) {
+        path = "the colour map's text";
+        status = tc_preset_parse(&list, color_map, strlen(color_map), path, err);
+    } else if (builtin_index(path) == builtin && looks_like_file(path)) {
+        status = tc_preset_read(&list, path, err);
+    } else {
+        const tc_transfer_options one = {.color_map = path};
+        tc_preset *map = NULL;
+        status = load_color_map(&map, &one, err);
+        status = status == TC_OK ? tc_preset_list_add(&list, map, err) : status;
+    }
+    if (status == TC_OK)
+        status = texts_of(out, n, &list, path, err);
+    tc_preset_list_finish(&list);
+    if (text && status == TC_E_FILE) {
+        status = TC_E_ARG;
+        if (err)
+            err->code = status;
+    }
+    return status;
 }
 
 /* ------------------------------------------------------------------------------------------------------- opacity */

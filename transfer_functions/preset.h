@@ -68,6 +68,8 @@ bool tc_preset_name_equal(const char *a, const char *b);
 /* The (up to) three of `name` [n] nearest to `wanted` as "\"A\", \"B\"". */
 void tc_preset_nearest(char *out, size_t capacity, const char *const *name, size_t n, const char *wanted);
 
+/* As JSON, an array of this one map, from malloc; NULL: memory ran out. */
+char *tc_preset_text(const tc_preset *preset);
 /* Writes one map: .xml by extension (any case), JSON otherwise. XML keeps opacity only where a colour point is.
  * Whole or not at all. Errors: TC_E_FILE, TC_E_MEMORY. */
 tc_status tc_preset_write(const tc_preset *preset, const char *path, tc_error *err);

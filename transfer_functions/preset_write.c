@@ -149,10 +149,9 @@ static tc_status write_whole(const char *path, const char *text, tc_error *err)
                           strerror(reason));
 }
 
-tc_status tc_preset_write(const tc_preset *preset, const char *path, tc_error *err)
+/* Numbers have decimal points here, whatever the program's language. */
+static char *text_of(const tc_preset *preset, bool xml)
 {
-    const size_t length = strlen(path);
-    const bool xml = length >= 4 && strcasecmp(path + length - 4, ".xml") == 0;
     const locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     const locale_t before = plain ? uselocale(plain) : (locale_t)0;
     char *text = xml ? xml_text(preset) : json_text(preset);
@@ -160,6 +159,19 @@ tc_status tc_preset_write(const tc_preset *preset, const char *path, tc_error *e
         uselocale(before);
         freelocale(plain);
     }
+    return text;
+}
+
+char *tc_preset_text(const tc_preset *preset)
+{
+    return text_of(preset, false);
+}
+
+tc_status tc_preset_write(const tc_preset *preset, const char *path, tc_error *err)
+{
+    const size_t length = strlen(path);
+    const bool xml = length >= 4 && strcasecmp(path + length - 4, ".xml") == 0;
+    char *text = text_of(preset, xml);
     if (!text)
         return tc_fail_memory(err, path, preset->n_color + preset->n_opacity, 100);
     const tc_status status = write_whole(path, text, err);

@@ -88,6 +88,50 @@ static void real_json_is_refused(void **state)
     tc_preset_list_finish(&list);
 }
 
+static void maps_of_a_file_are_not_what_their_texts_make(void **state)
+{
+    (void)state;
+    const char *const usable[] = {"One, ] } // \" ?", "Two", "Back"};
+    char path[220];
+    temporary(path, "_maps.json");
+    write_text(path, dirty);
+    tc_text_pair *pair;
+    size_t n;
+    tc_error err = {0};
+    assert_int_equal(tc_transfer_presets(&pair, &n, path, &err), TC_OK);
+    assert_int_equal(n, 3); /* what cannot be used is left out */
+    for (size_t i = 0; i < n; i++) {
+        assert_string_equal(pair[i].key, usable[i]);
+        const tc_transfer_options whole = {.color_map = path, .preset = usable[i], .data_range = {-3, 7}},
+                                  alone = {.color_map = pair[i].value, .data_range = {-3, 7}};
+        tc_transfer *a, *b;
+        assert_int_equal(tc_transfer_create(&a, &whole, &err), TC_OK);
+        assert_int_equal(tc_transfer_create(&b, &alone, &err), TC_OK);
+        assert_string_equal(a->name, b->name);
+        assert_int_equal(a->n, b->n);
+        for (size_t k = 0; k < a->n; k++) {
+            assert_float_equal(a->knot[k].s, b->knot[k].s, 1e-12);
+            assert_float_equal(a->knot[k].g, b->knot[k].g, 1e-12);
+            assert_float_equal(a->knot[k].a, b->knot[k].a, 1e-12);
+        }
+        tc_transfer_destroy(&a);
+        tc_transfer_destroy(&b);
+    }
+    free(pair);
+    assert_int_equal(tc_transfer_presets(&pair, &n, "viridis", &err), TC_OK); /* a built-in one, as one writes it */
+    assert_int_equal(n, 1);
+    assert_string_equal(pair[0].key, "Viridis");
+    free(pair);
+    write_text(path, "[{\"Name\": \"Bad\", \"RGBPoints\": [0, 0,0,0, 1, 1,1]}]");
+    assert_int_equal(tc_transfer_presets(&pair, &n, path, &err), TC_E_FILE);
+    assert_non_null(strstr(err.text, "Bad"));
+    unlink(path);
+    assert_int_equal(tc_transfer_presets(&pair, &n, path, &err), TC_E_FILE);
+    assert_int_equal(tc_transfer_presets(&pair, &n, "[{]", &err), TC_E_ARG);
+    assert_int_equal(tc_transfer_presets(&pair, &n, "no such map", &err), TC_E_ARG);
+    assert_null(pair);
+}
+
 static void bad_files_are_taken_or_not_explained(void **state)
 {
     (void)state;
@@ -319,6 +363,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(real_json_is_refused),
+        cmocka_unit_test(maps_of_a_file_are_not_what_their_texts_make),
         cmocka_unit_test(bad_files_are_taken_or_not_explained),
         cmocka_unit_test(truncated_text_breaks_the_parser),
         cmocka_unit_test(real_presets_do_not_all_parse),
