@@ -119,6 +119,14 @@ void tc_gpu_renderer_keep(tc_gpu_renderer *renderer, size_t bytes, bool at_once)
     renderer->kept.at_once = at_once;
 }
 
+tc_status tc_gpu_renderer_forget(tc_gpu_renderer *renderer, tc_error *err)
+{
+    tc_status status = tc_context_make_current(renderer->context, err);
+    if (status == TC_OK)
+        tc_kept_clear(&renderer->kept, &renderer->context->gl);
+    return status;
+}
+
 const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer)
 {
     return renderer->context;

@@ -28,6 +28,8 @@ void tc_gpu_renderer_destroy(tc_gpu_renderer **renderer);
 void tc_gpu_renderer_release(tc_gpu_renderer *renderer);
 /* How many bytes of walks may be kept (kept.h); 0, as at first: none. at_once: a view comes often. */
 void tc_gpu_renderer_keep(tc_gpu_renderer *renderer, size_t bytes, bool at_once);
+/* Frees what is kept. Errors: TC_E_GL. */
+tc_status tc_gpu_renderer_forget(tc_gpu_renderer *renderer, tc_error *err);
 const tc_context *tc_gpu_renderer_context(const tc_gpu_renderer *renderer);
 
 /* Packs, uploads and compiles what changed, then renders; the result stays in a texture. Fills stats.

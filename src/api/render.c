@@ -305,6 +305,18 @@ void tc_renderer_destroy(tc_renderer **renderer)
     *renderer = NULL;
 }
 
+void tc_renderer_keep(tc_renderer *renderer, size_t keep_bytes, bool keep_at_once)
+{
+    if (renderer->gpu)
+        tc_gpu_renderer_keep(renderer->gpu, keep_bytes, keep_at_once);
+}
+
+void tc_renderer_forget(tc_renderer *renderer)
+{
+    if (renderer->gpu)
+        tc_gpu_renderer_forget(renderer->gpu, NULL); /* without a context they are gone with it */
+}
+
 /* Everything not measured. */
 static void clear_stats(tc_render_stats *stats)
 {

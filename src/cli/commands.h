@@ -6,6 +6,7 @@
 
 extern const tc_command tc_command_render;   /* render_options.c, cmd_render.c */
 extern const tc_command tc_command_batch;    /* batch/batch_options.c, cmd_batch.c */
+extern const tc_command tc_command_edit;     /* cmd_edit.c */
 extern const tc_command tc_command_study;    /* cmd_study.c */
 extern const tc_command tc_command_explain;  /* cmd_explain.c */
 extern const tc_command tc_command_info;     /* cmd_info.c */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 static const tc_command *const tc_command_list[] = {
-    &tc_command_render, &tc_command_batch, &tc_command_explain, &tc_command_study, &tc_command_info, &tc_command_compare, &tc_command_synth, &tc_command_backends,
+    &tc_command_render, &tc_command_batch, &tc_command_edit, &tc_command_explain, &tc_command_study, &tc_command_info, &tc_command_compare, &tc_command_synth, &tc_command_backends,
 };
 #define TC_N_COMMAND (sizeof tc_command_list / sizeof *tc_command_list)
 
