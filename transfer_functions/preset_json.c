@@ -139,6 +139,11 @@ static double number(const json_t *value)
     return NAN;
 }
 
+static bool is_on(const json_t *value)
+{
+    return json_is_true(value) || (json_is_number(value) && json_number_value(value) != 0);
+}
+
 static void read_rgb_points(tc_preset *preset, const json_t *array)
 {
     for (size_t i = 0; i < preset->n_color; i++) {
@@ -170,6 +175,16 @@ static void read_points(tc_preset *preset, const json_t *array)
     }
 }
 
+/* ParaView's maps of logarithmic scale (UseLogScale) lie over the scalars' logarithms, which are what is laid over a range. */
+static void take_logarithms(double *x, size_t stride, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!(x[stride * i] > 0))
+            return;
+    for (size_t i = 0; i < n; i++)
+        x[stride * i] = log10(x[stride * i]);
+}
+
 static tc_preset *read_map(const json_t *map, size_t index)
 {
     const json_t *rgb = json_object_get(map, "RGBPoints"), *indexed = json_object_get(map, "IndexedColors");
@@ -194,6 +209,10 @@ static tc_preset *read_map(const json_t *map, size_t index)
     else
         read_indexed(preset, indexed);
     read_points(preset, points);
+    if (n_rgb && preset->n_color && is_on(json_object_get(map, "UseLogScale")))
+        take_logarithms(&preset->color[0].x, sizeof *preset->color / sizeof(double), preset->n_color);
+    if (preset->n_opacity && is_on(json_object_get(map, "UseLogScale")))
+        take_logarithms(&preset->opacity[0].x, sizeof *preset->opacity / sizeof(double), preset->n_opacity);
     if (json_array_size(nan) == 3) {
         preset->has_nan_color = true;
         for (size_t c = 0; c < 3; c++) {
@@ -204,8 +223,7 @@ static tc_preset *read_map(const json_t *map, size_t index)
     const char *space = json_string_value(json_object_get(map, "ColorSpace"));
     if (space && n_rgb)
         tc_preset_set_space(preset, space);
-    const json_t *wrap = json_object_get(map, "HSVWrap");
-    if (json_is_true(wrap) || (json_is_number(wrap) && json_number_value(wrap) != 0))
+    if (is_on(json_object_get(map, "HSVWrap")))
         preset->hsv_wrap = true;
     tc_preset_complete(preset);
     return preset;

@@ -132,6 +132,23 @@ static void maps_of_a_file_are_not_what_their_texts_make(void **state)
     assert_null(pair);
 }
 
+static void logarithmic_maps_of_paraview_are_laid_by_their_scalars(void **state)
+{
+    (void)state;
+    tc_preset_list list = parse("[{\"RGBPoints\": [1, 0,0,0, 10, 1,0,0, 1000, 1,1,1], \"UseLogScale\": 1,"
+                                " \"Points\": [0.01, 0, 0.5, 0, 1, 0.5, 0.5, 0, 10000, 1, 0.5, 0]},"
+                                " {\"RGBPoints\": [1, 0,0,0, 10, 1,0,0, 1000, 1,1,1], \"UseLogScale\": 0},"
+                                " {\"RGBPoints\": [0, 0,0,0, 10, 1,0,0, 1000, 1,1,1], \"UseLogScale\": 1}]");
+    assert_int_equal(list.n, 3);
+    const double expected[3][3] = {{0, 1, 3}, {1, 10, 1000}, {0, 10, 1000}}; /* the last has no logarithm */
+    for (int m = 0; m < 3; m++)
+        for (int i = 0; i < 3; i++)
+            assert_float_equal(list.preset[m]->color[i].x, expected[m][i], 1e-14);
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(list.preset[0]->opacity[i].x, -2 + i * (i + 1), 1e-14);
+    tc_preset_list_finish(&list);
+}
+
 static void bad_files_are_taken_or_not_explained(void **state)
 {
     (void)state;
@@ -364,6 +381,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(real_json_is_refused),
         cmocka_unit_test(maps_of_a_file_are_not_what_their_texts_make),
+        cmocka_unit_test(logarithmic_maps_of_paraview_are_laid_by_their_scalars),
         cmocka_unit_test(bad_files_are_taken_or_not_explained),
         cmocka_unit_test(truncated_text_breaks_the_parser),
         cmocka_unit_test(real_presets_do_not_all_parse),
