@@ -376,6 +376,7 @@ TC_API void tc_camera_zoom(tc_camera *camera, double factor);
 #include "tetcast_image.h"
 #include "tetcast_look.h"
 #include "tetcast_figure.h"
+#include "tetcast_probe.h"
 
 /* ----------------------------------------------------------------------------------------------------- render */
 

@@ -20,15 +20,6 @@ void tc_render_defaults(tc_render_options *options)
     options->width = options->height = 512;
 }
 
-double tc_default_unit_distance(const tc_mesh *mesh)
-{
-    const double *b = mesh->report.bounds;
-    double diagonal = hypot(hypot(b[1] - b[0], b[3] - b[2]), b[5] - b[4]);
-    double cells = (double)(mesh->report.source_cells ? mesh->report.source_cells : mesh->report.n_tet);
-    double unit = cells > 0 ? diagonal / cbrt(cells) : diagonal;
-    return unit > 0 && isfinite(unit) ? unit : 1;
-}
-
 /* Is the picture whole, or a part that lies within a whole one? */
 static tc_status check_part(const tc_render_options *o, tc_error *err)
 {

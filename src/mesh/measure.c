@@ -157,3 +157,12 @@ tc_status tc_mesh_measure(tc_mesh *m, int threads, tc_error *err)
     free(j.part);
     return TC_OK;
 }
+
+double tc_default_unit_distance(const tc_mesh *mesh)
+{
+    const double *b = mesh->report.bounds;
+    double diagonal = hypot(hypot(b[1] - b[0], b[3] - b[2]), b[5] - b[4]);
+    double cells = (double)(mesh->report.source_cells ? mesh->report.source_cells : mesh->report.n_tet);
+    double unit = cells > 0 ? diagonal / cbrt(cells) : diagonal;
+    return unit > 0 && isfinite(unit) ? unit : 1;
+}

@@ -1,9 +1,9 @@
 /* choose.c: tc_choose: an error or a frame time instead of knobs.
  *
- * Errors come from a calibration that is kept (probe.c, calibration.c), frame times are measured in the asked view and
+ * Errors come from a calibration that is kept (trial.c, calibration.c), frame times are measured in the asked view and
  * size, and the picture of the setting that is taken is checked: what fails is remembered and followed by the next. */
 #include "study/calibration.h"
-#include "study/probe.h"
+#include "study/trial.h"
 
 #include "api/driver.h"
 #include "core/parallel.h"
@@ -24,7 +24,7 @@ static const double MARGIN = 0.05;
 enum { VERIFY = 4096, GROUPS = TC_CANDIDATE_MAX, TIME_ROUNDS = 4 };
 
 typedef struct chooser {
-    tc_probe probe;
+    tc_trial trial;
     const tc_choose_request *request;
     tc_choose_report *report;
     tc_candidate candidate[TC_CANDIDATE_MAX];
@@ -48,25 +48,25 @@ static tc_status time_them(chooser *c, const size_t *index, size_t m, tc_error *
     if (c->kept.view != c->view)
         forget_times(c);
     c->changed = true;
-    return tc_probe_times(c->candidate, index, m, &c->probe, err);
+    return tc_trial_times(c->candidate, index, m, &c->trial, err);
 }
 
 static void store(chooser *c)
 {
     if (c->changed && !c->request->no_cache)
-        tc_calibration_store(&c->kept, c->candidate, c->n, c->request->cache, c->key, c->probe.log);
+        tc_calibration_store(&c->kept, c->candidate, c->n, c->request->cache, c->key, c->trial.log);
     c->changed = false;
 }
 
 static tc_status calibrate(chooser *c, tc_error *err)
 {
-    const tc_log *log = c->probe.log;
+    const tc_log *log = c->trial.log;
     c->report->cached =
         !c->request->no_cache && tc_calibration_load(&c->kept, c->candidate, c->n, c->request->cache, c->key, log);
     if (!c->report->cached) {
         double start = tc_now_ms();
         c->kept = (tc_calibration){.ratio = 1};
-        tc_status status = tc_probe_errors(c->candidate, c->n, &c->kept.rays, &c->probe, err);
+        tc_status status = tc_trial_errors(c->candidate, c->n, &c->kept.rays, &c->trial, err);
         if (status != TC_OK)
             return status;
         c->kept.ms = tc_now_ms() - start;
@@ -75,7 +75,7 @@ static tc_status calibrate(chooser *c, tc_error *err)
     }
     for (size_t i = 0; i < c->n; i++) {
         char text[TC_CANDIDATE_TEXT];
-        tc_candidate_text(text, &c->candidate[i], c->probe.fixed);
+        tc_candidate_text(text, &c->candidate[i], c->trial.fixed);
         if (isfinite(c->candidate[i].error))
             tc_say(log, TC_DEBUG, "calibrated: %s: error %.3g", text, c->candidate[i].error);
     }
@@ -106,9 +106,9 @@ static void raise_group(chooser *c, size_t k, double before)
 static tc_status check(bool *held, chooser *c, size_t k, double error, tc_error *err)
 {
     tc_candidate *one = &c->candidate[k];
-    tc_probe_check found;
+    tc_trial_check found;
     bool finest = one->integrator == TC_INTEGRATOR_EXACT && one->stop >= 1;
-    tc_status status = tc_probe_picture(&found, one, !finest, &c->probe, err);
+    tc_status status = tc_trial_picture(&found, one, !finest, &c->trial, err);
     if (status != TC_OK)
         return status;
     tc_choose_report *r = c->report;
@@ -120,7 +120,7 @@ static tc_status check(bool *held, chooser *c, size_t k, double error, tc_error 
     r->ms = found.ms;
     r->calibrated_error = one->error;
     r->error = max;
-    tc_candidate_text(r->setting, one, c->probe.fixed);
+    tc_candidate_text(r->setting, one, c->trial.fixed);
     *held = !(error > 0) || max <= error;
     if (max > one->error) { /* the next run knows */
         if (one->error > 0)
@@ -131,7 +131,7 @@ static tc_status check(bool *held, chooser *c, size_t k, double error, tc_error 
         c->changed = true;
     }
     if (!*held)
-        tc_say(c->probe.log, TC_DEBUG, "%s: error %.3g in this picture, above %.3g: the next setting is tried",
+        tc_say(c->trial.log, TC_DEBUG, "%s: error %.3g in this picture, above %.3g: the next setting is tried",
                r->setting, max, error);
     return TC_OK;
 }
@@ -161,7 +161,7 @@ static tc_status fail_unreachable(chooser *c, tc_error *err)
     if (status != TC_OK)
         return status;
     const tc_candidate *b = &c->candidate[best];
-    tc_candidate_text(text, b, c->probe.fixed);
+    tc_candidate_text(text, b, c->trial.fixed);
     double ask = round_up(b->error / SAFETY);
     char advice[48] = "";
     if (ask < 1)
@@ -170,9 +170,9 @@ static tc_status fail_unreachable(chooser *c, tc_error *err)
         err, TC_E_ACCURACY,
         "no setting%s reaches an error of %.3g here: the least is %.3g (%s), %.1f ms a frame; %stake the driver "
         "'reference', which works in double precision%s%s",
-        is_fixed(c->probe.fixed) ? " that keeps what was given" : "", c->request->error, b->error, text, b->ms, advice,
-        is_fixed(c->probe.fixed) ? ", or leave more to be chosen" : "",
-        c->probe.fixed->samples == TC_SAMPLES_ADAPTIVE
+        is_fixed(c->trial.fixed) ? " that keeps what was given" : "", c->request->error, b->error, text, b->ms, advice,
+        is_fixed(c->trial.fixed) ? ", or leave more to be chosen" : "",
+        c->trial.fixed->samples == TC_SAMPLES_ADAPTIVE
             ? ", or 16 rays in every pixel, as adaptively chosen ones miss some"
             : "");
 }
@@ -189,7 +189,7 @@ static void say_dearer(char *out, size_t capacity, const chooser *c, size_t chos
     if (!best)
         return;
     char text[TC_CANDIDATE_TEXT];
-    tc_candidate_text(text, best, c->probe.fixed);
+    tc_candidate_text(text, best, c->trial.fixed);
     snprintf(out, capacity, "; %s would take %.1f ms", text, best->ms);
 }
 
@@ -344,7 +344,7 @@ static tc_status choose_time(size_t *chosen, chooser *c, tc_error *err)
             "frame time %.4g ms: no setting is fast enough; the fastest is taken: %s, %.1f ms a frame, error %.2g in "
             "this picture; a smaller picture or fewer rays a pixel take less",
             budget, r->setting, r->ms, r->error);
-        tc_say(c->probe.log, TC_WARNING,
+        tc_say(c->trial.log, TC_WARNING,
                "no setting makes a frame within %.4g ms: the fastest takes %.1f ms (%s); a "
                "smaller picture or fewer rays a pixel take less",
                budget, r->ms, r->setting);
@@ -366,15 +366,15 @@ static tc_status judge_time(chooser *c, size_t chosen, tc_error *err)
         return status;
     if (within == c->n) {
         tc_say(
-            c->probe.log, TC_WARNING,
+            c->trial.log, TC_WARNING,
             "an error of %.3g takes %.1f ms a frame, more than %.4g, and no setting is that fast; the error is kept: a "
             "smaller picture or fewer rays a pixel take less",
             c->request->error, c->candidate[chosen].ms, c->request->frame_ms);
         return TC_OK;
     }
-    tc_candidate_text(text, &c->candidate[within], c->probe.fixed);
+    tc_candidate_text(text, &c->candidate[within], c->trial.fixed);
     tc_say(
-        c->probe.log, TC_WARNING,
+        c->trial.log, TC_WARNING,
         "an error of %.3g takes %.1f ms a frame, more than %.4g, and is kept; within that time the least error is %.3g "
         "(%s)",
         c->request->error, c->candidate[chosen].ms, c->request->frame_ms, c->candidate[within].error, text);
@@ -387,9 +387,9 @@ static tc_status judge_time(chooser *c, size_t chosen, tc_error *err)
 static tc_status choose_reference(chooser *c, tc_error *err)
 {
     tc_choose_report *r = c->report;
-    tc_probe_check found;
+    tc_trial_check found;
     tc_candidate only = {.integrator = TC_INTEGRATOR_EXACT, .stop = 1};
-    tc_status status = tc_probe_picture(&found, &only, false, &c->probe, err);
+    tc_status status = tc_trial_picture(&found, &only, false, &c->trial, err);
     if (status != TC_OK)
         return status;
     double asked = c->request->error, budget = c->request->frame_ms, max = found.error;
@@ -406,7 +406,7 @@ static tc_status choose_reference(chooser *c, tc_error *err)
     r->in_time = !(budget > 0) || r->ms <= (1 - MARGIN) * budget;
     snprintf(r->why, sizeof r->why, "%s: error %.2g in this picture, %.1f ms a frame", r->setting, max, r->ms);
     if (!r->in_time)
-        tc_say(c->probe.log, TC_WARNING,
+        tc_say(c->trial.log, TC_WARNING,
                "the driver 'reference' takes %.1f ms a frame, more than %.4g, and has nothing to choose; a smaller "
                "picture "
                "takes less",
@@ -415,7 +415,7 @@ static tc_status choose_reference(chooser *c, tc_error *err)
 }
 
 /* What renders here: its name, and whether it has knobs. Packs the mesh, which has to be done anyway. */
-static tc_status ask_renderer(tc_render_stats *stats, const tc_probe *p, tc_error *err)
+static tc_status ask_renderer(tc_render_stats *stats, const tc_trial *p, tc_error *err)
 {
     tc_render_options small = *p->fixed;
     tc_image *image = NULL;
@@ -444,7 +444,7 @@ static tc_status choose(tc_render_options *options, chooser *c, tc_error *err)
     size_t best = tc_candidate_best(c->candidate, c->n);
     r->best_error = c->candidate[best].error;
     r->best_ms = c->kept.view == c->view ? c->candidate[best].ms : NAN;
-    tc_candidate_text(r->best_setting, &c->candidate[best], c->probe.fixed);
+    tc_candidate_text(r->best_setting, &c->candidate[best], c->trial.fixed);
     tc_candidate_apply(options, &c->candidate[chosen]);
     return TC_OK;
 }
@@ -481,7 +481,7 @@ tc_status tc_choose(tc_render_options *options, tc_choose_report *report, tc_ren
         return tc_fail(err, TC_E_MEMORY, "out of memory: nothing could be chosen");
     c->request = request;
     c->report = report;
-    c->probe = (tc_probe){.renderer = renderer,
+    c->trial = (tc_trial){.renderer = renderer,
                           .mesh = mesh,
                           .tf = tf,
                           .camera = camera,
@@ -490,7 +490,7 @@ tc_status tc_choose(tc_render_options *options, tc_choose_report *report, tc_ren
                           .seed = request->seed,
                           .threads = request->threads,
                           .log = log};
-    status = ask_renderer(&stats, &c->probe, err);
+    status = ask_renderer(&stats, &c->trial, err);
     if (status == TC_OK && !strcmp(stats.driver, "reference")) {
         status = choose_reference(c, err);
     } else if (status == TC_OK) {
@@ -501,7 +501,7 @@ tc_status tc_choose(tc_render_options *options, tc_choose_report *report, tc_ren
         c->key = key = tc_calibration_key(mesh, tf, unit, where, &fixed);
         status = key ? choose(options, c, err) : tc_fail(err, TC_E_MEMORY, "out of memory: nothing could be chosen");
     }
-    tc_probe_finish(&c->probe);
+    tc_trial_finish(&c->trial);
     free(key);
     free(c);
     return status;

@@ -19,7 +19,7 @@ includes() {
         rank["core"] = 0; rank["mesh"] = 1
         rank["cache"] = rank["scene"] = rank["shell"] = rank["image"] = 2
         rank["transfer_functions"] = rank["datasets_synthetic"] = rank["readers"] = 2
-        rank["gpu"] = rank["reference"] = rank["figure"] = 3
+        rank["gpu"] = rank["reference"] = rank["figure"] = rank["probe"] = 3
         rank["api"] = 4; rank["study"] = rank["window"] = 5
         rank["cli"] = 6
     }

@@ -13,7 +13,7 @@ import unittest
 import _tetcast as c
 from support import SOURCE
 
-HEADERS = ["tetcast.h", "tetcast_image.h", "tetcast_look.h", "tetcast_figure.h"]
+HEADERS = ["tetcast.h", "tetcast_image.h", "tetcast_look.h", "tetcast_figure.h", "tetcast_probe.h"]
 
 
 def header_text():

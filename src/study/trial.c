@@ -1,6 +1,6 @@
-/* probe.c: measures candidates: errors over rays of a few views, frame times, and the error of one whole picture.
+/* trial.c: measures candidates: errors over rays of a few views, frame times, and the error of one whole picture.
  * Errors are differences from the double-precision reference; ill-posed rays are left out (reference/truth.h). */
-#include "study/probe.h"
+#include "study/trial.h"
 
 #include "api/driver.h"
 #include "core/memory.h"
@@ -14,16 +14,16 @@ enum { VIEWS = 3, CALIBRATION_PIXELS = 128 * 128, ROUNDS = 5, CHECK_FRAMES = 3, 
 static const double HOPELESS[ROUNDS] = {3, 2.5, 2, 1.5, 1.5}; /* after so many frames: times the fastest one's */
 static const double ROUNDS_MS = 4000;                         /* all frames together are to take not much more */
 
-void tc_probe_finish(tc_probe *probe)
+void tc_trial_finish(tc_trial *trial)
 {
-    tc_truth_destroy(&probe->truth);
-    tc_reference_destroy(&probe->reference);
-    tc_image_destroy(&probe->finest);
+    tc_truth_destroy(&trial->truth);
+    tc_reference_destroy(&trial->reference);
+    tc_image_destroy(&trial->finest);
 }
 
 /* True colours of a view's pixels: n drawn from the seed, or the ones listed. */
 static tc_status make_truth(tc_truth **out, const tc_rays *rays, double unit, int samples, const uint32_t *pixel,
-                            size_t n, tc_probe *p, tc_error *err)
+                            size_t n, tc_trial *p, tc_error *err)
 {
     tc_status status = p->reference ? TC_OK : tc_reference_create(&p->reference, p->mesh, p->threads, err);
     if (status != TC_OK)
@@ -47,7 +47,7 @@ static tc_status make_truth(tc_truth **out, const tc_rays *rays, double unit, in
 /* ---------------------------------------------------------------------------------------------------- calibration */
 
 /* View k: the caller's, or the whole mesh from a direction across it and across the other one. */
-static void view_camera(tc_camera *out, int k, const tc_probe *p, double aspect)
+static void view_camera(tc_camera *out, int k, const tc_trial *p, double aspect)
 {
     double to_eye[3], side[3], up[3], length = 0;
     const tc_camera *c = p->camera;
@@ -90,7 +90,7 @@ static void small_options(tc_render_options *out, const tc_render_options *fixed
 }
 
 static tc_status render(tc_image **image, tc_render_stats *stats, const tc_candidate *c, const tc_camera *camera,
-                        const tc_render_options *options, tc_probe *p, tc_error *err)
+                        const tc_render_options *options, tc_trial *p, tc_error *err)
 {
     tc_render_options o = *options;
     tc_candidate_apply(&o, c);
@@ -103,7 +103,7 @@ static tc_status render(tc_image **image, tc_render_stats *stats, const tc_candi
 /* One candidate in one view: raises its error. `mixed`: exact is another candidate, so running integrals that went on
  * as exact are it again. */
 static tc_status raise_error(tc_candidate *c, const tc_camera *camera, const tc_render_options *options, bool mixed,
-                             tc_truth *truth, tc_probe *p, tc_error *err)
+                             tc_truth *truth, tc_trial *p, tc_error *err)
 {
     tc_image *image = NULL;
     tc_render_stats stats;
@@ -125,7 +125,7 @@ static tc_status raise_error(tc_candidate *c, const tc_camera *camera, const tc_
     return status;
 }
 
-tc_status tc_probe_errors(tc_candidate *candidate, size_t n, size_t *rays, tc_probe *p, tc_error *err)
+tc_status tc_trial_errors(tc_candidate *candidate, size_t n, size_t *rays, tc_trial *p, tc_error *err)
 {
     bool mixed = false;
     tc_status status = TC_OK;
@@ -172,7 +172,7 @@ static double median(const double *value, size_t n)
     return n % 2 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
 }
 
-static tc_status one_time(double *ms, const tc_candidate *c, tc_probe *p, tc_error *err)
+static tc_status one_time(double *ms, const tc_candidate *c, tc_trial *p, tc_error *err)
 {
     tc_render_options o = *p->fixed;
     tc_image *image = NULL;
@@ -184,7 +184,7 @@ static tc_status one_time(double *ms, const tc_candidate *c, tc_probe *p, tc_err
     return status;
 }
 
-tc_status tc_probe_times(tc_candidate *candidate, const size_t *index, size_t m, tc_probe *p, tc_error *err)
+tc_status tc_trial_times(tc_candidate *candidate, const size_t *index, size_t m, tc_trial *p, tc_error *err)
 {
     double ms[TC_CANDIDATE_MAX][ROUNDS], total = 0, warm;
     size_t frames[TC_CANDIDATE_MAX] = {0};
@@ -266,8 +266,8 @@ static size_t find_suspects(uint32_t pixel[SUSPECTS], const tc_image *a, const t
     return n;
 }
 
-static tc_status check_suspects(tc_probe_check *out, const tc_image *image, const tc_rays *rays, double unit,
-                                tc_probe *p, tc_error *err)
+static tc_status check_suspects(tc_trial_check *out, const tc_image *image, const tc_rays *rays, double unit,
+                                tc_trial *p, tc_error *err)
 {
     uint32_t pixel[SUSPECTS];
     tc_truth *truth = NULL;
@@ -289,7 +289,7 @@ static tc_status check_suspects(tc_probe_check *out, const tc_image *image, cons
 
 /* The picture in which nothing is chosen but exactness: whatever the caller fixed of the integrator. NULL where the
  * function has too many knots for it. */
-static tc_status render_finest(tc_probe *p, tc_error *err)
+static tc_status render_finest(tc_trial *p, tc_error *err)
 {
     static const tc_candidate exact = {.integrator = TC_INTEGRATOR_EXACT, .stop = 1};
     tc_render_options o = *p->fixed;
@@ -302,7 +302,7 @@ static tc_status render_finest(tc_probe *p, tc_error *err)
     return status == TC_E_ARG ? TC_OK : status;
 }
 
-tc_status tc_probe_picture(tc_probe_check *out, const tc_candidate *candidate, bool suspects, tc_probe *p,
+tc_status tc_trial_picture(tc_trial_check *out, const tc_candidate *candidate, bool suspects, tc_trial *p,
                            tc_error *err)
 {
     tc_render_options o = *p->fixed;

@@ -1,12 +1,12 @@
-/* probe.h: measures candidates: errors over rays of a few views, frame times, and the error of one whole picture. */
-#ifndef TC_STUDY_PROBE_H
-#define TC_STUDY_PROBE_H
+/* trial.h: measures candidates: errors over rays of a few views, frame times, and the error of one whole picture. */
+#ifndef TC_STUDY_TRIAL_H
+#define TC_STUDY_TRIAL_H
 
 #include "reference/truth.h"
 #include "study/candidate.h"
 
 /* What is measured on; all borrowed but what is below the line. */
-typedef struct tc_probe {
+typedef struct tc_trial {
     tc_renderer *renderer;
     const tc_mesh *mesh;
     const tc_transfer *tf;
@@ -16,35 +16,35 @@ typedef struct tc_probe {
     uint64_t seed;
     int threads;
     const tc_log *log;
-    /* made when first needed; tc_probe_finish frees it */
+    /* made when first needed; tc_trial_finish frees it */
     tc_reference *reference;
     tc_truth *truth;  /* of those pixels */
     tc_image *finest; /* the picture of the exact integrator */
-} tc_probe;
+} tc_trial;
 
-void tc_probe_finish(tc_probe *probe);
+void tc_trial_finish(tc_trial *trial);
 
 /* The error of each candidate: largest difference of a channel from the reference over the rays of three small pictures
- * (probe's camera, and the whole mesh from two directions across it), ill-posed rays left out. What cannot be rendered
+ * (trial's camera, and the whole mesh from two directions across it), ill-posed rays left out. What cannot be rendered
  * gets INFINITY. *rays: number of rays looked at. Errors: TC_E_MEMORY, TC_E_LOST, TC_E_CANCEL; where no candidate can
  * be rendered, what tc_render said. */
-tc_status tc_probe_errors(tc_candidate *candidate, size_t n, size_t *rays, tc_probe *probe, tc_error *err);
+tc_status tc_trial_errors(tc_candidate *candidate, size_t n, size_t *rays, tc_trial *trial, tc_error *err);
 
-/* The frame time of the m candidates in index at probe's camera, size and samples: median of five frames, interleaved,
+/* The frame time of the m candidates in index at trial's camera, size and samples: median of five frames, interleaved,
  * so that what else the machine does hits all alike, after one to warm up. What takes twice as long as the fastest gets
  * fewer frames. Errors: as tc_render. */
-tc_status tc_probe_times(tc_candidate *candidate, const size_t *index, size_t m, tc_probe *probe, tc_error *err);
+tc_status tc_trial_times(tc_candidate *candidate, const size_t *index, size_t m, tc_trial *trial, tc_error *err);
 
-typedef struct tc_probe_check {
+typedef struct tc_trial_check {
     tc_verify_result verify; /* sampled pixels */
     size_t suspects;
     double suspect, error; /* largest error of suspects, and of both */
     double ms;             /* median of three frames; of one where that takes more than a second */
-} tc_probe_check;
+} tc_trial_check;
 
-/* The picture of a candidate: an error over probe->verify of its pixels, and with `suspects` over those of all that
+/* The picture of a candidate: an error over trial->verify of its pixels, and with `suspects` over those of all that
  * differ most from the exact integrator's picture. Errors: as tc_render and tc_verify. */
-tc_status tc_probe_picture(tc_probe_check *out, const tc_candidate *candidate, bool suspects, tc_probe *probe,
+tc_status tc_trial_picture(tc_trial_check *out, const tc_candidate *candidate, bool suspects, tc_trial *trial,
                            tc_error *err);
 
 #endif
