@@ -71,7 +71,7 @@ static void tc_draw_opacity_axis(cairo_t *cr, const tc_curve *curve, const tc_cu
                                  const tc_plot_colors *colors)
 {
     tc_axis_tick tick[TC_CURVE_TICKS];
-    const int labels = (int)fmax((f->bottom - f->top) / 26, 2);
+    const int labels = (int)fmax((f->bottom - f->top) / 34, 2);
     const size_t n = tc_axis_ticks(tick, TC_CURVE_TICKS, &curve->axis, labels);
     const double label_height = 14;
     for (size_t i = 0; i < n; i++) {
@@ -122,7 +122,7 @@ static void tc_draw_curve(cairo_t *cr, const tc_curve *curve, const tc_curve_fra
     cairo_save(cr);
     cairo_rectangle(cr, f->left, f->top - 2, f->right - f->left, f->bottom - f->top + 4);
     cairo_clip(cr);
-    cairo_pattern_t *gradient = tc_plot_gradient(curve->session->document, f->width, 0.62);
+    cairo_pattern_t *gradient = tc_plot_gradient(curve->session->document, f->width, 0.7);
     tc_trace_curve(cr, curve, f);
     cairo_line_to(cr, f->right, f->bottom);
     cairo_line_to(cr, f->left, f->bottom);
@@ -163,10 +163,12 @@ static void tc_draw_handles(cairo_t *cr, const tc_curve *curve, const tc_curve_f
         cairo_stroke(cr);
     }
     const bool focused = gtk_widget_has_focus(curve->area);
+    /* Many points, as of freehand lines, are small. */
+    const double base = (f->right - f->left) / (double)d->n_point < 3 * TC_CURVE_HANDLE ? 4 : TC_CURVE_HANDLE;
     for (size_t i = 0; i < d->n_point; i++) {
         const tc_edit_point *p = &d->point[i];
         const double x = tc_plot_x(f->width, p->x), y = fmax(tc_curve_y(curve, f, p->a), f->top);
-        const double r = (part == TC_PART_POINT && index == i ? 1.5 : 0) + TC_CURVE_HANDLE - (p->selected ? 0 : 0.5);
+        const double r = (part == TC_PART_POINT && index == i ? 1.5 : 0) + base - (p->selected ? 0 : 0.5);
         cairo_new_path(cr);
         cairo_arc(cr, x, y, r, 0, 2 * G_PI);
         tc_plot_ink(cr, p->selected ? &colors->accent : &colors->paper, 1);
@@ -286,8 +288,8 @@ void tc_curve_draw(GtkDrawingArea *area, cairo_t *cr, int width, int height, gpo
     cairo_rectangle(cr, f.left, f.top, f.right - f.left, f.bottom - f.top);
     tc_plot_ink(cr, &colors.paper, 1);
     cairo_fill(cr);
-    tc_draw_curve(cr, curve, &f, &colors);
     tc_draw_histogram(cr, curve, &f, &colors);
+    tc_draw_curve(cr, curve, &f, &colors);
     tc_draw_opacity_axis(cr, curve, &f, &colors);
     cairo_rectangle(cr, f.left + 0.5, f.top + 0.5, f.right - f.left - 1, f.bottom - f.top - 1);
     tc_plot_ink(cr, gtk_widget_has_focus(curve->area) ? &colors.accent : &colors.ink, 0.6);
