@@ -16,6 +16,7 @@
 #include "core/parallel.h"
 #include "core/vec.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -27,6 +28,9 @@ enum { VERTEX_CHUNK = 32768, TET_CHUNK = 65536, MOST_WORKERS = 256 };
 static const double BESIDE = 0x1p-30;
 /* A depth that rounding may move by more than DOUBT is found on a line that is moved by ASIDE. */
 static const double ROUNDING = 8e-16, DOUBT = 1e-8, ASIDE = 0x1p-40;
+
+/* Parts that reach this little into each other do so by rounding. */
+static const double REACH = 1e-12;
 
 /* The line in the frame of the mesh: x = (vertex - center) * scale - base, then along u, v and d. */
 typedef struct frame {
@@ -272,6 +276,23 @@ static int by_depth(const void *a, const void *b)
     return p->tet < q->tet ? -1 : p->tet > q->tet;
 }
 
+/* Cells of no length whose ends rounding has exchanged reach back by as little: the others' depths hold. */
+static size_t join(tc_line_part *part, size_t n, const frame *f)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++) {
+        tc_line_part p = part[i];
+        if (kept > 0 && p.t[0] < part[kept - 1].t[1]) {
+            const double end = part[kept - 1].t[1];
+            if (end - p.t[0] <= REACH / f->scale + 4 * DBL_EPSILON * fabs(end))
+                p.t[0] = end;
+        }
+        if (p.t[0] < p.t[1])
+            part[kept++] = p;
+    }
+    return kept;
+}
+
 static tc_status find(uint32_t **tet, size_t *n, search *j, int threads)
 {
     const tc_mesh *m = j->frame->mesh;
@@ -324,7 +345,7 @@ tc_status tc_line_meet(tc_line_part **out, size_t *n, const tc_mesh *mesh, const
             (*out)[seen++] = part;
     }
     qsort(*out, seen, sizeof **out, by_depth);
-    *n = seen;
+    *n = join(*out, seen, &f);
 done:
     for (int w = 0; j && w < MOST_WORKERS; w++)
         free(j->found[w].tet);

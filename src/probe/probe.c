@@ -22,6 +22,13 @@ static tc_status check(const tc_mesh *mesh, double unit, const tc_camera *camera
     return TC_OK;
 }
 
+/* Distance from the eye's plane of an end of a part, which lies `back` before the line's origin in parallel projection.
+ */
+static double depth(const tc_line_part *part, int end, double back, const tc_rays *rays)
+{
+    return rays->parallel ? fmin(fmax(part->t[end] - back, rays->near), rays->far) : part->t[end];
+}
+
 /* Fills transmittance, opacity and picked. Until they are known transmittance holds sums of optical depths. */
 static void see(tc_probe *probe, const tc_line_part *line, const tc_transfer *tf, double unit)
 {
@@ -59,23 +66,23 @@ tc_status tc_mesh_probe(tc_probe **out, const tc_mesh *mesh, const tc_transfer *
     if (status != TC_OK)
         return status;
 
-    double range[2];
+    double range[2], from[3], back = 0;
     const double X = x + 0.5, Y = (double)height - y - 0.5;
     tc_line_part *line = NULL;
     tc_probe *probe = tc_calloc(1, sizeof *probe);
     if (!probe)
         return tc_fail_memory(err, "what a ray meets", 1, sizeof *probe);
     probe->picked = NAN;
-    tc_rays_pixel(probe->origin, probe->direction, &rays, X, Y);
+    tc_rays_pixel(from, probe->direction, &rays, X, Y);
     tc_rays_range(range, &rays, X, Y);
-    if (rays.parallel) { /* from the focal plane to the eye's */
+    if (rays.parallel) { /* the ray begins in the focal plane; depths are from the eye's, but no digit of it is to be
+                            lost */
         double to_eye[3];
-        tc_vec_sub(to_eye, rays.eye, probe->origin);
-        const double back = tc_vec_dot(to_eye, rays.axis);
-        tc_vec_mul_add(probe->origin, probe->origin, back, probe->direction);
-        range[0] = rays.near, range[1] = rays.far;
+        tc_vec_sub(to_eye, rays.eye, from);
+        back = tc_vec_dot(to_eye, rays.axis);
     }
-    status = tc_line_meet(&line, &probe->n, mesh, probe->origin, probe->direction, range, 0, err);
+    tc_vec_mul_add(probe->origin, from, back, probe->direction);
+    status = tc_line_meet(&line, &probe->n, mesh, from, probe->direction, range, 0, err);
     if (status != TC_OK)
         goto done;
     probe->part = tc_alloc(probe->n, sizeof *probe->part);
@@ -83,9 +90,15 @@ tc_status tc_mesh_probe(tc_probe **out, const tc_mesh *mesh, const tc_transfer *
         status = tc_fail_memory(err, "what a ray meets", probe->n, sizeof *probe->part);
         goto done;
     }
-    for (size_t i = 0; i < probe->n; i++)
-        probe->part[i] = (tc_probe_part){
-            .depth = {line[i].t[0], line[i].t[1]}, .scalar = {line[i].s[0], line[i].s[1]}, .transmittance = 1};
+    size_t n = 0;
+    for (size_t i = 0; i < probe->n; i++) {
+        const tc_probe_part part = {.depth = {depth(&line[i], 0, back, &rays), depth(&line[i], 1, back, &rays)},
+                                    .scalar = {line[i].s[0], line[i].s[1]},
+                                    .transmittance = 1};
+        if (part.depth[0] < part.depth[1]) /* some are shorter than depths can tell */
+            line[n] = line[i], probe->part[n++] = part;
+    }
+    probe->n = n;
     if (tf)
         see(probe, line, tf, unit_distance > 0 ? unit_distance : tc_default_unit_distance(mesh));
 done:
