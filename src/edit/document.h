@@ -103,7 +103,7 @@ tc_status tc_document_replace(tc_document *document, double from, double to, con
 
 /* Shapes: points into out [capacity], their number as result (0: capacity is too small; 32 is enough for all but
  * freehand). Height between from and to, floor at their sides; for tc_document_replace. gaussian: 3 standard deviations
- * each way, 0.6 % of its height at most off the bell. */
+ * each way, 0.5 % of its height at most off the bell. */
 size_t tc_shape_gaussian(tc_edit_point *out, size_t capacity, double from, double to, double height, double floor);
 /* share: of the way that is at height, in the middle; 0 a tent, 1 a step. */
 size_t tc_shape_trapezoid(tc_edit_point *out, size_t capacity, double from, double to, double share, double height,

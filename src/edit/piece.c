@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-enum { SAMPLES = 65 };
+enum { SAMPLES = 65, GRID = 16 };
 
 /* Below 0.01 VTK has lines. */
 static bool is_straight(tc_bend bend)
@@ -21,7 +21,7 @@ double tc_piece_value(double a, double b, double t, tc_bend bend)
     if (s > 0.99)
         return t < 0.5 ? a : b;
     if (is_straight(bend))
-        return a * (1 - t) + b * t;
+        return fmax(fmin(a, b), fmin(fmax(a, b), a * (1 - t) + b * t));
     if (t < 0.5)
         t = 0.5 * pow(2 * t, 1 + 10 * s);
     else if (t > 0.5)
@@ -74,17 +74,17 @@ tc_bend tc_piece_part(double a, double b, tc_bend bend, double from, double to)
         y[k] = (tc_piece_value(0, 1, from + (to - from) * k / (SAMPLES - 1), bend) - low) / rise;
     tc_bend best = line;
     take_better(&best, &least, y, line);
-    const double middle[2] = {crossing(y), (bend.midpoint - from) / (to - from)};
-    for (int m = 0; m < 2; m++) {
+    const double middle[2] = {(bend.midpoint - from) / (to - from), crossing(y)}; /* a step's place is the first */
+    for (int m = 0; m < 2; m++)
         take_better(&best, &least, y, (tc_bend){middle[m], bend.sharpness});
-        for (int s = 0; s <= 16; s++)
-            take_better(&best, &least, y, (tc_bend){middle[m], s / 16.0});
-    }
-    for (double step = 1.0 / 32; step > 1e-5 && least > 1e-12;) {
+    for (int m = 0; m <= GRID; m++)
+        for (int s = 0; s <= GRID; s++)
+            take_better(&best, &least, y, (tc_bend){(double)m / GRID, (double)s / GRID});
+    for (double step = 0.5 / GRID; step > 1e-5 && least > 1e-12;) {
         const double before = least;
-        for (int way = -1; way <= 1; way += 2) {
-            take_better(&best, &least, y, (tc_bend){best.midpoint + way * step, best.sharpness});
-            take_better(&best, &least, y, (tc_bend){best.midpoint, best.sharpness + way * step});
+        for (int way = 0; way < 8; way++) {
+            const double along[8] = {1, -1, 0, 0, 1, 1, -1, -1}, up[8] = {0, 0, 1, -1, 1, -1, 1, -1};
+            take_better(&best, &least, y, (tc_bend){best.midpoint + along[way] * step, best.sharpness + up[way] * step});
         }
         if (!(least < before))
             step *= 0.5;

@@ -20,7 +20,7 @@ static tc_edit_point point_at(double x, double a)
 size_t tc_shape_gaussian(tc_edit_point *out, size_t capacity, double from, double to, double height, double floor)
 {
     /* Places at which lines are off by about the same everywhere: as dense as the root of the second derivative. */
-    enum { HALF = 8, STEPS = 4096 };
+    enum { HALF = 10, STEPS = 4096 };
     if (capacity < 2 * HALF + 1)
         return 0;
     double sum[STEPS + 1] = {0};
