@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "window/curve_state.h"
+#include "window/loader.h"
 #include "window/plot.h"
 
 #define TC_CURVE_DATA "tetcast-curve"
@@ -181,6 +182,16 @@ static void tc_counts_toggled(GtkCheckButton *button, gpointer user)
     gtk_widget_queue_draw(curve->area);
 }
 
+static void tc_volume_toggled(GtkCheckButton *button, gpointer user)
+{
+    tc_curve *curve = user;
+    const bool by_volume = gtk_check_button_get_active(button);
+    if (curve->session->by_volume == by_volume)
+        return;
+    curve->session->by_volume = by_volume;
+    tc_loader_histogram(curve->session);
+}
+
 static void tc_top_typed(GtkWidget *entry, gpointer user)
 {
     tc_curve *curve = user;
@@ -230,6 +241,12 @@ static GtkWidget *tc_tools_build(tc_curve *curve)
     tc_plot_label(curve->count_button, "Logarithmic counts of the histogram", "Logarithmic counts of the histogram");
     g_signal_connect(curve->count_button, "toggled", G_CALLBACK(tc_counts_toggled), curve);
     gtk_box_append(GTK_BOX(row), curve->count_button);
+
+    curve->volume_button = gtk_check_button_new_with_label("By volume");
+    gtk_check_button_set_active(GTK_CHECK_BUTTON(curve->volume_button), curve->session->by_volume);
+    tc_plot_label(curve->volume_button, "Histogram by volume", "Values count by the volume of their cells");
+    g_signal_connect(curve->volume_button, "toggled", G_CALLBACK(tc_volume_toggled), curve);
+    gtk_box_append(GTK_BOX(row), curve->volume_button);
 
     GtkWidget *label = gtk_label_new("Top");
     gtk_widget_set_hexpand(label, true);

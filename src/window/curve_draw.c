@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "edit/columns.h"
 #include "window/plot.h"
 
 enum { TC_CURVE_TICKS = 64 };
@@ -52,10 +53,10 @@ static void tc_draw_histogram(cairo_t *cr, const tc_curve *curve, const tc_curve
     double *column = histogram ? malloc(n * sizeof *column) : NULL;
     if (!column)
         return;
-    const double most = tc_plot_columns(column, n, histogram, curve->session->document);
+    const double most = tc_columns_count(column, n, histogram, curve->session->document);
     cairo_move_to(cr, f->left, f->bottom);
     for (size_t i = 0; i < n; i++) {
-        const double h = tc_plot_height(histogram, column[i], most, curve->log_counts);
+        const double h = tc_columns_height(histogram, column[i], most, curve->log_counts);
         const double y = f->bottom - h * 0.94 * (f->bottom - f->top);
         cairo_line_to(cr, f->left + (double)i, y);
         cairo_line_to(cr, f->left + (double)i + 1, y);

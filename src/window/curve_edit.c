@@ -136,9 +136,8 @@ void tc_curve_shape(tc_curve *curve, double from, double to, double height)
     to = fmin(to, 1);
     if (!(to - from > 1e-4))
         return;
-    /* Where the curve lies high already, the shape stands upon it. */
-    const double floor_a = fmin(tc_document_opacity(d, from), tc_document_opacity(d, to));
-    const double least = fmin(floor_a, height);
+    /* Where the curve lies high already, the shape stands upon it, or is cut into it. */
+    const double least = fmin(tc_document_opacity(d, from), tc_document_opacity(d, to));
     tc_edit_point point[TC_CURVE_SHAPE_POINTS];
     size_t n;
     const char *what;

@@ -231,9 +231,12 @@ static void tc_drag_to(tc_curve *curve, double x, double y)
     case TC_PART_RUBBER:
         tc_drag_rubber(curve, &f, x, y);
         break;
-    case TC_PART_TOP: /* a decade in 120 pixels */
-        tc_curve_top_set(curve, curve->drag_top * pow(10, (curve->drag_begin[1] - y) / 120));
+    case TC_PART_TOP: { /* a decade in 120 pixels, by round numbers */
+        const double top = curve->drag_top * pow(10, (curve->drag_begin[1] - y) / 120);
+        const double unit = pow(10, floor(log10(top)) - 1);
+        tc_curve_top_set(curve, round(top / unit) * unit);
         break;
+    }
     case TC_PART_FREEHAND:
         tc_drag_freehand(curve, &f, x, y);
         break;

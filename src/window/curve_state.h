@@ -34,7 +34,7 @@ typedef enum tc_curve_part {
 
 typedef struct tc_curve {
     tc_session *session;
-    GtkWidget *box, *area, *tool_button[TC_TOOLS], *axis_button, *count_button, *top_entry;
+    GtkWidget *box, *area, *tool_button[TC_TOOLS], *axis_button, *count_button, *volume_button, *top_entry;
     GtkWidget *popover, *scalar_entry, *opacity_entry;
     tc_axis axis;
     bool log_counts;

@@ -31,12 +31,6 @@ double tc_plot_text(cairo_t *cr, GtkWidget *widget, const char *text, double x, 
 void tc_plot_scalar_axis(cairo_t *cr, GtkWidget *widget, const tc_document *document, int width, double y);
 /* A gradient of the document's colours over its range, at that opacity. Destroy it. */
 cairo_pattern_t *tc_plot_gradient(const tc_document *document, int width, double alpha);
-/* Weights of n columns over places from to to, by the histogram's bins: what a column cuts of a bin counts by its
- * share. The document's range and logarithm hold. Gives the largest. */
-double tc_plot_columns(double *out, size_t n, const tc_histogram *histogram, const tc_document *document);
-/* A height (0 to 1) of a column's weight; log: of 1 + its count. */
-double tc_plot_height(const tc_histogram *histogram, double weight, double most, bool log);
-
 /* A number as it is shown, digits of them at most; the decimal point is a point. Gives out. */
 char *tc_plot_number(char out[32], double value, int digits);
 /* From a text that is a number, whole; a comma may be its point. False: it is none, *out stays. */

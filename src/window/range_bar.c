@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "edit/columns.h"
 #include "window/plot.h"
 
 #define TC_RANGE_DATA "tetcast-range-bar"
@@ -95,9 +96,9 @@ static void tc_range_histogram(cairo_t *cr, const tc_range_bar *bar, int width, 
     double *column = histogram ? malloc(n * sizeof *column) : NULL;
     if (!column)
         return;
-    const double most = tc_plot_columns(column, n, histogram, &bar->extent);
+    const double most = tc_columns_count(column, n, histogram, &bar->extent);
     for (size_t i = 0; i < n; i++) {
-        const double h = (TC_RANGE_HEIGHT - 6) * tc_plot_height(histogram, column[i], most, true);
+        const double h = (TC_RANGE_HEIGHT - 6) * tc_columns_height(histogram, column[i], most, true);
         cairo_rectangle(cr, left + (double)i, TC_RANGE_HEIGHT - 3 - h, 1, h);
     }
     tc_plot_ink(cr, &colors->ink, 0.3);
