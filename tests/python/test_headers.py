@@ -39,7 +39,7 @@ def measure(lines):
 
 def fields_of(text, struct):
     """Names of a struct's fields in the header, in order."""
-    body = re.search(r"typedef struct " + struct + r"\s*\{(.*?)\}\s*" + struct + r"\s*;", text, re.S).group(1)
+    body = re.search(r"struct " + struct + r"\s*\{(.*?)\}\s*(?:" + struct + r")?\s*;", text, re.S).group(1)
     names = []
     for declaration in filter(str.strip, body.split(";")):
         pointer = re.search(r"\(\*\s*(\w+)\)", declaration)  # to a function or an array
