@@ -1,4 +1,5 @@
-/* cmd_edit.c: `tetcast edit`: checks what can be checked without a window, and becomes tetcast-edit, the program that has one. */
+/* cmd_edit.c: `tetcast edit`: checks what can be checked without a window, and becomes tetcast-edit, the program that
+ * has one. */
 #define _GNU_SOURCE
 #include "cli/edit_command.h"
 
@@ -10,8 +11,8 @@
 
 #define TC_EDIT_PROGRAM "tetcast-edit"
 
-/* Where helper programs are: in the folders of $TETCAST_HELPERS, beside this program, or as installed. *out from malloc. False: not there; places
- * names where it was looked for. */
+/* Where helper programs are: in the folders of $TETCAST_HELPERS, beside this program, or as installed. *out from
+ * malloc. False: not there; places names where it was looked for. */
 static bool tc_edit_locate(char **out, char *places, size_t capacity)
 {
     static const char *const below[] = {"/../libexec/tetcast", "/../lib/tetcast", ""};
@@ -90,12 +91,14 @@ static int tc_edit_run(tc_talk *talk, const tc_command *command, int argc, char 
         return code;
     if (!tc_edit_locate(&path, places, sizeof places))
         tc_talk_error(talk,
-                      "the program " TC_EDIT_PROGRAM " of the window was not found (searched %s): it is built where GTK 4 "
+                      "the program " TC_EDIT_PROGRAM
+                      " of the window was not found (searched %s): it is built where GTK 4 "
                       "is; install libgtk-4-dev and build again",
                       places);
     else if (!tc_is_set("DISPLAY") && !tc_is_set("WAYLAND_DISPLAY"))
-        tc_talk_error(talk, "there is no display to open a window on: neither DISPLAY nor WAYLAND_DISPLAY is set; run it "
-                            "in a desktop, by ssh -X, or under xvfb-run (tetcast render makes pictures without one)");
+        tc_talk_error(talk,
+                      "there is no display to open a window on: neither DISPLAY nor WAYLAND_DISPLAY is set; run it "
+                      "in a desktop, by ssh -X, or under xvfb-run (tetcast render makes pictures without one)");
     else
         tc_edit_become(path, talk, argc, argv);
     free(path);
@@ -104,15 +107,16 @@ static int tc_edit_run(tc_talk *talk, const tc_command *command, int argc, char 
 
 static const tc_option tc_edit_option[] = {
     {.kind = TC_OPTION_HEADING, .help = "Window"},
-    {"--trace", 0, "FILE", "write what happened when, in the Trace Event Format (Perfetto, chrome://tracing)", TC_OPTION_TEXT,
-     .at = offsetof(tc_edit_command, trace)},
+    {"--trace", 0, "FILE", "write what happened when, in the Trace Event Format (Perfetto, chrome://tracing)",
+     TC_OPTION_TEXT, .at = offsetof(tc_edit_command, trace)},
 };
 
 const tc_command tc_command_edit = {
     .name = "edit",
     .arguments = "INPUT",
     .what = "A window in which a transfer function is made, over the live picture.",
-    .about = "INPUT and the options are those of render; what it begins with. No picture is written but from the window.",
+    .about =
+        "INPUT and the options are those of render; what it begins with. No picture is written but from the window.",
     .own = tc_edit_option,
     .n_own = sizeof tc_edit_option / sizeof *tc_edit_option,
     .option = tc_render_option,

@@ -1,0 +1,63 @@
+/* main.c: tetcast-edit, the program that `tetcast edit` becomes: one window over one session. */
+#include "cli/commands.h"
+#include "window/loader.h"
+#include "window/window.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct program {
+    tc_session session;
+    GtkWindow *window;
+    int code; /* exit code; -1: all went well */
+} program;
+
+/* What could not be read at all leaves nothing to show: the sentence was printed. */
+static void heard(void *user, unsigned changes)
+{
+    program *p = user;
+    if (!(changes & TC_CHANGE_BUSY) || p->session.busy || p->session.run.mesh || !p->window)
+        return;
+    p->code = TC_EXIT_FAILED;
+    gtk_window_destroy(p->window);
+    p->window = NULL;
+}
+
+static void activate(GtkApplication *application, gpointer user)
+{
+    program *p = user;
+    GtkWindow *window = tc_window_new(application, &p->session);
+    if (*tc_window_refused(window)) {
+        tc_talk_error(&p->session.talk, "%s", tc_window_refused(window));
+        p->code = TC_EXIT_FAILED;
+        gtk_window_destroy(window);
+        return;
+    }
+    tc_loader_start(&p->session);
+    p->window = window;
+    tc_session_listen(&p->session, heard, p);
+}
+
+int main(int argc, char **argv)
+{
+    program p = {.code = -1};
+    int code = tc_session_open(&p.session, &tc_command_edit, argc, argv);
+    if (code >= 0)
+        return tc_talk_finish(&p.session.talk, code);
+    g_set_prgname("tetcast-edit");
+    if (!gtk_init_check()) {
+        tc_talk_error(&p.session.talk,
+                      "the display could not be opened: see DISPLAY or WAYLAND_DISPLAY, or run it under "
+                      "xvfb-run (tetcast render makes pictures without one)");
+        tc_session_close(&p.session);
+        return TC_EXIT_FAILED;
+    }
+    GtkApplication *application = gtk_application_new("org.tetcast.edit", G_APPLICATION_NON_UNIQUE);
+    g_signal_connect(application, "activate", G_CALLBACK(activate), &p);
+    g_application_run(G_APPLICATION(application), 1, argv);
+    g_object_unref(application);
+    const bool loading = p.session.busy; /* by a thread that goes with the program */
+    code = loading ? -1 : tc_session_close(&p.session);
+    p.code = p.code < 0 ? code : p.code;
+    return tc_talk_finish(&p.session.talk, p.code < 0 ? TC_EXIT_DONE : p.code);
+}
