@@ -204,6 +204,28 @@ static void tc_top_typed(GtkWidget *entry, gpointer user)
     }
 }
 
+static GtkWidget *tc_checks_build(tc_curve *curve)
+{
+    GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+    curve->axis_button = gtk_check_button_new_with_label("Log opacity");
+    tc_plot_label(curve->axis_button, "Logarithmic opacity axis", "Logarithmic opacity axis, with 0 at its foot");
+    g_signal_connect(curve->axis_button, "toggled", G_CALLBACK(tc_axis_toggled), curve);
+    gtk_box_append(GTK_BOX(row), curve->axis_button);
+
+    curve->count_button = gtk_check_button_new_with_label("Log counts");
+    gtk_check_button_set_active(GTK_CHECK_BUTTON(curve->count_button), curve->log_counts);
+    tc_plot_label(curve->count_button, "Logarithmic counts of the histogram", "Logarithmic counts of the histogram");
+    g_signal_connect(curve->count_button, "toggled", G_CALLBACK(tc_counts_toggled), curve);
+    gtk_box_append(GTK_BOX(row), curve->count_button);
+
+    curve->volume_button = gtk_check_button_new_with_label("By volume");
+    gtk_check_button_set_active(GTK_CHECK_BUTTON(curve->volume_button), curve->session->by_volume);
+    tc_plot_label(curve->volume_button, "Histogram by volume", "Values count by the volume of their cells");
+    g_signal_connect(curve->volume_button, "toggled", G_CALLBACK(tc_volume_toggled), curve);
+    gtk_box_append(GTK_BOX(row), curve->volume_button);
+    return row;
+}
+
 static GtkWidget *tc_tools_build(tc_curve *curve)
 {
     static const char *const name[TC_TOOLS] = {"Select and move", "Draw freehand", "Gaussian", "Trapezoid", "Step"};
@@ -230,23 +252,6 @@ static GtkWidget *tc_tools_build(tc_curve *curve)
         gtk_box_append(GTK_BOX(group), button);
     }
     gtk_box_append(GTK_BOX(row), group);
-
-    curve->axis_button = gtk_check_button_new_with_label("Log opacity");
-    tc_plot_label(curve->axis_button, "Logarithmic opacity axis", "Logarithmic opacity axis, with 0 at its foot");
-    g_signal_connect(curve->axis_button, "toggled", G_CALLBACK(tc_axis_toggled), curve);
-    gtk_box_append(GTK_BOX(row), curve->axis_button);
-
-    curve->count_button = gtk_check_button_new_with_label("Log counts");
-    gtk_check_button_set_active(GTK_CHECK_BUTTON(curve->count_button), curve->log_counts);
-    tc_plot_label(curve->count_button, "Logarithmic counts of the histogram", "Logarithmic counts of the histogram");
-    g_signal_connect(curve->count_button, "toggled", G_CALLBACK(tc_counts_toggled), curve);
-    gtk_box_append(GTK_BOX(row), curve->count_button);
-
-    curve->volume_button = gtk_check_button_new_with_label("By volume");
-    gtk_check_button_set_active(GTK_CHECK_BUTTON(curve->volume_button), curve->session->by_volume);
-    tc_plot_label(curve->volume_button, "Histogram by volume", "Values count by the volume of their cells");
-    g_signal_connect(curve->volume_button, "toggled", G_CALLBACK(tc_volume_toggled), curve);
-    gtk_box_append(GTK_BOX(row), curve->volume_button);
 
     GtkWidget *label = gtk_label_new("Top");
     gtk_widget_set_hexpand(label, true);
@@ -308,6 +313,7 @@ GtkWidget *tc_curve_new(tc_session *session)
     curve->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
     curve->area = g_object_new(GTK_TYPE_DRAWING_AREA, "accessible-role", GTK_ACCESSIBLE_ROLE_SLIDER, NULL);
     gtk_box_append(GTK_BOX(curve->box), tc_tools_build(curve));
+    gtk_box_append(GTK_BOX(curve->box), tc_checks_build(curve));
     gtk_box_append(GTK_BOX(curve->box), curve->area);
     gtk_widget_set_focusable(curve->area, true);
     gtk_widget_set_vexpand(curve->area, true);
