@@ -215,6 +215,24 @@ static void more_threads_give_other_bits(void **state)
     }
 }
 
+/* The points that fill gaps have no value: 0 must not be counted for them. */
+static void points_of_imaginary_cells_are_counted(void **state)
+{
+    (void)state;
+    tc_mesh *m = prepared("cylinder", 900);
+    tc_error err = {0};
+    tc_histogram *plain = histogram(m, &(tc_histogram_options){.by_volume = true});
+    if (tc_mesh_prepare(m, &(tc_prepare_options){.reentry = TC_REENTRY_CONVEXIFY}, NULL, &err) != TC_OK)
+        fail_msg("%s", err.text);
+    assert_true(m->report.n_steiner > 0);
+    tc_histogram *filled = histogram(m, &(tc_histogram_options){.by_volume = true});
+    assert_true(plain->counted == filled->counted && plain->counted == m->n_vertex - m->report.n_steiner);
+    assert_memory_equal(plain->weight, filled->weight, 256 * sizeof(double));
+    tc_histogram_destroy(&plain);
+    tc_histogram_destroy(&filled);
+    tc_mesh_destroy(&m);
+}
+
 static double one_to_four(size_t i)
 {
     return (double)(i % 4 + 1);
@@ -316,6 +334,7 @@ int main(void)
         cmocka_unit_test(a_bin_holds_other_values_than_it_should),
         cmocka_unit_test(values_outside_of_the_picture_are_counted),
         cmocka_unit_test(more_threads_give_other_bits),
+        cmocka_unit_test(points_of_imaginary_cells_are_counted),
         cmocka_unit_test(percentile_does_not_leave_that_share_below),
         cmocka_unit_test(one_value_or_none_has_no_histogram),
         cmocka_unit_test(what_cannot_be_counted_is_no_error_or_one_without_a_reason),

@@ -239,6 +239,44 @@ static void a_ray_along_edges_loses_or_doubles_a_cell(void **state)
     tc_mesh_destroy(&m);
 }
 
+/* Which of the cells around an edge, vertex or face a ray through it meets, and whether one in the rim is in: as the
+ * reference decides it. The data of cells tell. */
+static void a_tie_is_decided_otherwise_than_by_the_reference_caster(void **state)
+{
+    (void)state;
+    struct tc_mesh f = kuhn_cube(4);
+    uint64_t seed = 8;
+    f.association = TC_CELL_DATA;
+    f.scalar = realloc(f.scalar, f.n_tet * sizeof *f.scalar);
+    assert_non_null(f.scalar);
+    for (size_t i = 0; i < f.n_tet; i++)
+        f.scalar[i] = uniform(&seed, 0, 1);
+    tc_mesh *m = from_fixture(&f);
+    tc_reference *r = reference_of(m);
+    const tc_knot ramp[2] = {{0, 1, 1, 1, 0}, {1, 1, 1, 1, 1}};
+    tc_transfer *tf = function(ramp, 2);
+    const double range[2] = {-INFINITY, INFINITY};
+    for (int a = -1; a <= 1; a++)
+        for (int b = -1; b <= 1; b++)
+            for (int c = -1; c <= 1; c++)
+                for (int g = 0; g < 125 && (a || b || c); g++) {
+                    double d[3] = {a, b, c}, o[3], depth = 0;
+                    const double p[3] = {g % 5 / 4.0, g / 5 % 5 / 4.0, g / 25 / 4.0};
+                    tc_line_part *part;
+                    size_t n;
+                    tc_vec_normalize(d);
+                    tc_vec_mul_add(o, p, -3, d);
+                    assert_int_equal(tc_line_meet(&part, &n, m, o, d, range, 1, NULL), TC_OK);
+                    for (size_t i = 0; i < n; i++)
+                        depth += part[i].length * part[i].s[0];
+                    NEAR(-expm1(-depth), trace(r, tf, o, d, -INFINITY).rgba[3], 1e-9);
+                    free(part);
+                }
+    tc_transfer_destroy(&tf);
+    tc_reference_destroy(&r);
+    tc_mesh_destroy(&m);
+}
+
 /* Two cubes one of which is moved by 3 along x. */
 static void a_gap_is_filled_or_a_clipped_part_is_seen(void **state)
 {
@@ -391,6 +429,7 @@ int main(void)
         cmocka_unit_test(opacity_is_not_that_of_the_reference_caster),
         cmocka_unit_test(chord_scalar_or_opacity_of_a_cube_is_wrong),
         cmocka_unit_test(a_ray_along_edges_loses_or_doubles_a_cell),
+        cmocka_unit_test(a_tie_is_decided_otherwise_than_by_the_reference_caster),
         cmocka_unit_test(a_gap_is_filled_or_a_clipped_part_is_seen),
         cmocka_unit_test(picked_is_not_where_half_is_reached),
         cmocka_unit_test(more_threads_give_other_bits),
