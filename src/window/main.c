@@ -3,8 +3,7 @@
 #include "window/loader.h"
 #include "window/window.h"
 
-#include <stdio.h>
-#include <string.h>
+#include <glib-unix.h>
 
 typedef struct program {
     tc_session session;
@@ -21,6 +20,13 @@ static void heard(void *user, unsigned changes)
     p->code = TC_EXIT_FAILED;
     gtk_window_destroy(p->window);
     p->window = NULL;
+}
+
+/* Ended from outside: in order, so that traces are whole. */
+static gboolean told_to_end(gpointer user)
+{
+    g_application_quit(user);
+    return G_SOURCE_REMOVE;
 }
 
 static void activate(GtkApplication *application, gpointer user)
@@ -54,6 +60,8 @@ int main(int argc, char **argv)
     }
     GtkApplication *application = gtk_application_new("org.tetcast.edit", G_APPLICATION_NON_UNIQUE);
     g_signal_connect(application, "activate", G_CALLBACK(activate), &p);
+    g_unix_signal_add(SIGTERM, told_to_end, application);
+    g_unix_signal_add(SIGINT, told_to_end, application);
     g_application_run(G_APPLICATION(application), 1, argv);
     g_object_unref(application);
     const bool loading = p.session.busy; /* by a thread that goes with the program */

@@ -11,7 +11,9 @@
 #include <string.h>
 
 /* SLOTS: textures: two layers being made, two ready, two shown, one to come. */
-enum { SLOTS = 8, KEEP_BYTES = 256 << 20 };
+/* TELL_EVERY_MS: what is not whole is shown so often; in software showing a picture costs about what a part of one
+ * does. */
+enum { SLOTS = 8, KEEP_BYTES = 256 << 20, TELL_EVERY_MS = 400 };
 
 typedef struct request {
     tc_held *held; /* mesh and look; NULL: nothing to show */
@@ -72,6 +74,7 @@ struct tc_pictures {
     int part_width, part_height;
     bool along; /* the function alone changed since the last picture, so that walks are kept */
     bool failed;
+    double told_ms; /* when a picture was published last */
 };
 
 static void request_finish(request *r)
@@ -145,6 +148,7 @@ static void tell_soon(tc_pictures *p)
 
 static void publish(tc_pictures *p)
 {
+    p->told_ms = tc_trace_now();
     g_mutex_lock(&p->lock);
     layer_drop(p, &p->ready.whole);
     layer_drop(p, &p->ready.over);
@@ -446,8 +450,9 @@ static void *work(void *user)
             p->failed = true;
             continue;
         }
-        publish(p);
         idle = false;
+        if (p->making.over.at < 0 || tc_trace_now() - p->told_ms > TELL_EVERY_MS)
+            publish(p);
         if (step.last && p->making.over.at < 0)
             check_begin(p);
     }

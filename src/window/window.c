@@ -1,5 +1,9 @@
 /* window.c: what lies where in the window, and its status line. */
 #include "window/window.h"
+#include "window/color_bar.h"
+#include "window/curve.h"
+#include "window/effects.h"
+#include "window/presets.h"
 #include "window/view.h"
 
 #include <math.h>
@@ -8,7 +12,7 @@
 typedef struct window {
     GtkWindow *window;
     tc_session *session;
-    GtkWidget *view, *progress, *said, *speed, *error;
+    GtkWidget *view, *curve, *progress, *said, *speed, *error;
 } window;
 
 static window *window_of(GtkWindow *widget)
@@ -17,6 +21,13 @@ static window *window_of(GtkWindow *widget)
 }
 
 /* ----------------------------------------------------------------------------------------------------------- status */
+
+/* The next number above of one digit. */
+static double rounded_up(double value)
+{
+    const double digit = value > 0 ? pow(10, floor(log10(value))) : 1;
+    return ceil(value / digit * (1 - 1e-12)) * digit;
+}
 
 static void picture_changed(void *user, const tc_shown *shown)
 {
@@ -28,7 +39,7 @@ static void picture_changed(void *user, const tc_shown *shown)
         snprintf(text, sizeof text, "%.0f ms at 1/%d", shown->ms, shown->divide);
     gtk_label_set_text(GTK_LABEL(w->speed), text);
     if (shown->last && shown->checked && isfinite(shown->error))
-        snprintf(text, sizeof text, "error ≤ %.1g (99 %% of pixels)", shown->error);
+        snprintf(text, sizeof text, "error ≤ %.1g (99 %% of pixels)", rounded_up(shown->error));
     else if (shown->last && shown->checked)
         snprintf(text, sizeof text, "not checked");
     else if (shown->last)
@@ -93,9 +104,11 @@ static void redo(GSimpleAction *action, GVariant *parameter, gpointer user)
 static void actions_add(window *w, GtkApplication *application)
 {
     static const GActionEntry entry[] = {{.name = "undo", .activate = undo}, {.name = "redo", .activate = redo}};
+    static const char *const close_keys[] = {"<Control>w", "<Control>q", NULL};
     static const char *const undo_keys[] = {"<Control>z", NULL}, *const redo_keys[] = {"<Control><Shift>z",
                                                                                        "<Control>y", NULL};
     g_action_map_add_action_entries(G_ACTION_MAP(w->window), entry, G_N_ELEMENTS(entry), w);
+    gtk_application_set_accels_for_action(application, "window.close", close_keys);
     gtk_application_set_accels_for_action(application, "win.undo", undo_keys);
     gtk_application_set_accels_for_action(application, "win.redo", redo_keys);
 }
@@ -153,12 +166,51 @@ static GtkWidget *picture_new(window *w)
     return overlay;
 }
 
+/* The scalars that the ray under the pointer meets, on the curve's axis. */
+static void probed(void *user, const tc_probe *probe)
+{
+    window *w = user;
+    const size_t n = probe ? probe->n : 0;
+    double *scalar = n ? g_new(double, 2 * n) : NULL, picked = NAN;
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        const tc_probe_part *part = &probe->part[i];
+        for (int k = 0; k < 2 && isfinite(part->scalar[0]); k++)
+            scalar[count++] = part->scalar[k];
+        if (probe->picked >= part->depth[0] && probe->picked <= part->depth[1]) {
+            const double share = (probe->picked - part->depth[0]) / (part->depth[1] - part->depth[0]);
+            picked = part->scalar[0] + share * (part->scalar[1] - part->scalar[0]);
+        }
+    }
+    tc_curve_mark(w->curve, scalar, count, picked);
+    g_free(scalar);
+}
+
 static GtkWidget *side_new(window *w)
 {
-    (void)w;
-    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
-    gtk_widget_set_size_request(box, 380, -1);
-    return box;
+    GtkWidget *paned = gtk_paned_new(GTK_ORIENTATION_VERTICAL);
+    GtkWidget *above = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4), *below = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
+    GtkWidget *stack = gtk_stack_new(), *switcher = gtk_stack_switcher_new();
+    w->curve = tc_curve_new(w->session);
+    gtk_widget_set_vexpand(w->curve, TRUE);
+    gtk_box_append(GTK_BOX(above), w->curve);
+    gtk_box_append(GTK_BOX(above), tc_color_bar_new(w->session));
+    gtk_stack_add_titled(GTK_STACK(stack), tc_presets_new(w->session), "presets", "Colour maps");
+    gtk_stack_add_titled(GTK_STACK(stack), tc_effects_new(w->session), "effects", "Effects and data");
+    gtk_stack_switcher_set_stack(GTK_STACK_SWITCHER(switcher), GTK_STACK(stack));
+    gtk_widget_set_vexpand(stack, TRUE);
+    gtk_widget_set_halign(switcher, GTK_ALIGN_CENTER);
+    gtk_widget_set_margin_top(switcher, 6);
+    gtk_box_append(GTK_BOX(below), switcher);
+    gtk_box_append(GTK_BOX(below), stack);
+    gtk_paned_set_start_child(GTK_PANED(paned), above);
+    gtk_paned_set_end_child(GTK_PANED(paned), below);
+    gtk_paned_set_resize_start_child(GTK_PANED(paned), TRUE);
+    gtk_paned_set_shrink_start_child(GTK_PANED(paned), FALSE);
+    gtk_paned_set_shrink_end_child(GTK_PANED(paned), FALSE);
+    gtk_widget_set_size_request(paned, 400, -1);
+    tc_view_listen_probe(w->view, probed, w);
+    return paned;
 }
 
 GtkWindow *tc_window_new(GtkApplication *application, tc_session *session)
