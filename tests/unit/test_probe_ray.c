@@ -2,6 +2,7 @@
  * caster. */
 #include "test_reference_fixture.h"
 
+#include "datasets_synthetic/synth.h"
 #include "probe/line.h"
 
 #include <stdio.h>
@@ -209,6 +210,32 @@ static void chord_scalar_or_opacity_of_a_cube_is_wrong(void **state)
             tc_transfer_destroy(&tf);
             tc_mesh_destroy(&m);
         }
+}
+
+/* What is met of a polyhedron, convex or not, is what the line has of its analytic shape. */
+static void chord_is_not_that_of_the_shape(void **state)
+{
+    (void)state;
+    static const char *const name[] = {"ball", "heatsink", "cylinder", "comb", "shells"};
+    for (int i = 0; i < 5; i++) {
+        tc_mesh *m = prepared(name[i], 3000, TC_REENTRY_PEEL);
+        const tc_synth_generator *g = tc_synth_find(name[i]);
+        size_t met = 0;
+        assert_non_null(m);
+        for (int k = 0; k < 4; k++) {
+            static const double from[4][3] = {{0.3, 0.5, 1}, {1, 0.2, 0.1}, {-0.7, 0.3, -0.4}, {0.11, -1, 0.23}};
+            tc_camera c = {.parallel = k >= 2};
+            tc_camera_reset(&c, m->report.bounds, from[k], UP, 30, 1);
+            for (int x = 0; x < 196; x++) {
+                tc_probe *p = probe(m, NULL, 0, &c, 14, 14, x % 14, x / 14);
+                NEAR(length_of(p), g->chord(p->origin, p->direction, 3000), 1e-9 * tc_vec_length(c.position));
+                met += p->n > 0;
+                tc_probe_destroy(&p);
+            }
+        }
+        assert_true(met > 200);
+        tc_mesh_destroy(&m);
+    }
 }
 
 /* A ray that runs through vertices, along edges and in faces still has one chord. */
@@ -428,6 +455,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(opacity_is_not_that_of_the_reference_caster),
         cmocka_unit_test(chord_scalar_or_opacity_of_a_cube_is_wrong),
+        cmocka_unit_test(chord_is_not_that_of_the_shape),
         cmocka_unit_test(a_ray_along_edges_loses_or_doubles_a_cell),
         cmocka_unit_test(a_tie_is_decided_otherwise_than_by_the_reference_caster),
         cmocka_unit_test(a_gap_is_filled_or_a_clipped_part_is_seen),
