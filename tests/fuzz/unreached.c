@@ -33,12 +33,6 @@ tc_status tc_synth_create(tc_mesh **out, const char *name, size_t n_cells, uint6
     return TC_E_ARG;
 }
 
-double tc_default_unit_distance(const tc_mesh *mesh)
-{
-    (void)mesh;
-    return 1;
-}
-
 tc_status tc_mesh_write_vtu(const tc_mesh *mesh, const char *path, tc_error *err)
 {
     (void)mesh, (void)path, (void)err;
