@@ -115,7 +115,9 @@ bool tc_plot_restore(tc_document *document, const tc_document *as)
     tc_error err = {0};
     if (tc_document_copy(&copy, as, &err))
         return false;
-    const tc_document old = *document;
+    tc_document old = *document;
+    old.kept = copy->kept;
+    copy->kept = document->kept; /* which looks itself whether the colours are the same */
     *document = *copy;
     *copy = old;
     tc_document_destroy(&copy);
