@@ -175,7 +175,7 @@ static void read_points(tc_preset *preset, const json_t *array)
     }
 }
 
-/* ParaView's maps of logarithmic scale (UseLogScale) lie over the scalars' logarithms, which are what is laid over a range. */
+/* ParaView's maps of logarithmic scale (UseLogScale) lie over the scalars' logarithms: these are laid over a range. */
 static void take_logarithms(double *x, size_t stride, size_t n)
 {
     for (size_t i = 0; i < n; i++)

@@ -84,7 +84,8 @@ tc_bend tc_piece_part(double a, double b, tc_bend bend, double from, double to)
         const double before = least;
         for (int way = 0; way < 8; way++) {
             const double along[8] = {1, -1, 0, 0, 1, 1, -1, -1}, up[8] = {0, 0, 1, -1, 1, -1, 1, -1};
-            take_better(&best, &least, y, (tc_bend){best.midpoint + along[way] * step, best.sharpness + up[way] * step});
+            take_better(&best, &least, y,
+                        (tc_bend){best.midpoint + along[way] * step, best.sharpness + up[way] * step});
         }
         if (!(least < before))
             step *= 0.5;
