@@ -1,4 +1,5 @@
 /* files.c: what the window opens and saves. */
+#define _POSIX_C_SOURCE 200809L
 #include "window/files.h"
 
 #include "window/autosave.h"
