@@ -3,6 +3,7 @@
 #include "window/color_bar.h"
 #include "window/curve.h"
 #include "window/effects.h"
+#include "window/files.h"
 #include "window/presets.h"
 #include "window/view.h"
 
@@ -240,6 +241,7 @@ GtkWindow *tc_window_new(GtkApplication *application, tc_session *session)
     tc_session_listen(session, heard, w);
     title_make(w);
     heard(w, TC_CHANGE_HISTORY | TC_CHANGE_BUSY | TC_CHANGE_SAID);
+    tc_files_attach(w->window, session);
     gtk_window_present(w->window);
     return w->window;
 }
