@@ -3,7 +3,8 @@
 #include "window/host_gl.h"
 
 #include <dlfcn.h>
-#include <stddef.h>
+#include <epoxy/gl.h>
+#include <string.h>
 
 typedef void *current_function(void);
 typedef void *proc_function(const char *name);
@@ -21,6 +22,33 @@ static bool take(const char *library, const char *current, const char *address)
         return false;
     *(void **)&proc = dlsym(handle, address);
     return proc != NULL;
+}
+
+bool tc_host_gl_try(GdkDisplay *display, bool *software, char why[512])
+{
+    GError *error = NULL;
+    GdkGLContext *context = gdk_display_create_gl_context(display, &error);
+    *software = false;
+    if (context) {
+        gdk_gl_context_set_required_version(context, 4, 3);
+        if (!gdk_gl_context_realize(context, &error))
+            g_clear_object(&context);
+    }
+    if (!context) {
+        g_snprintf(why, 512, "%s", error ? error->message : "it gave no context");
+        g_clear_error(&error);
+        return false;
+    }
+    gdk_gl_context_make_current(context);
+    const char *renderer = (const char *)glGetString(GL_RENDERER);
+    *software = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") || strstr(renderer, "SWR"));
+    const int version = epoxy_gl_version();
+    const bool good = version >= 43;
+    if (!good)
+        g_snprintf(why, 512, "it has OpenGL %d.%d", version / 10, version % 10);
+    gdk_gl_context_clear_current();
+    g_object_unref(context);
+    return good;
 }
 
 bool tc_host_gl_ready(void)

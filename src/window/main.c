@@ -1,5 +1,6 @@
 /* main.c: tetcast-edit, the program that `tetcast edit` becomes: one window over one session. */
 #include "cli/commands.h"
+#include "window/host_gl.h"
 #include "window/loader.h"
 #include "window/window.h"
 
@@ -25,7 +26,8 @@ static void heard(void *user, unsigned changes)
 /* Ended from outside: in order, so that traces are whole. */
 static gboolean told_to_end(gpointer user)
 {
-    g_application_quit(user);
+    for (GList *list; (list = gtk_application_get_windows(user)) != NULL;)
+        gtk_window_destroy(list->data);
     return G_SOURCE_REMOVE;
 }
 
@@ -44,6 +46,24 @@ static void activate(GtkApplication *application, gpointer user)
     tc_session_listen(&p->session, heard, p);
 }
 
+/* Is there OpenGL for pictures? -1, or the exit code of an error that was printed. */
+static int gl_check(tc_talk *talk)
+{
+    char why[512];
+    bool software;
+    if (!tc_host_gl_try(gdk_display_get_default(), &software, why)) {
+        tc_talk_error(
+            talk,
+            "a window needs OpenGL 4.3, which this display does not give (%s); update the driver of the GPU or "
+            "install Mesa's (libgl1-mesa-dri); tetcast render makes pictures without a display",
+            why);
+        return TC_EXIT_FAILED;
+    }
+    if (software) /* widgets drawn with it would take the time of the pictures */
+        g_setenv("GSK_RENDERER", "cairo", FALSE);
+    return -1;
+}
+
 int main(int argc, char **argv)
 {
     program p = {.code = -1};
@@ -57,6 +77,11 @@ int main(int argc, char **argv)
                       "xvfb-run (tetcast render makes pictures without one)");
         tc_session_close(&p.session);
         return TC_EXIT_FAILED;
+    }
+    code = gl_check(&p.session.talk);
+    if (code >= 0) {
+        tc_session_close(&p.session);
+        return tc_talk_finish(&p.session.talk, code);
     }
     GtkApplication *application = gtk_application_new("org.tetcast.edit", G_APPLICATION_NON_UNIQUE);
     g_signal_connect(application, "activate", G_CALLBACK(activate), &p);
