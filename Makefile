@@ -34,6 +34,7 @@ BASE_PACKAGES := gcc g++ libc6-dev cmake ninja-build pkg-config libvtk9-dev libt
 	libgl-dev libegl1 libgl1-mesa-dri libopenimageio-dev libpng-dev libglm-dev libjansson-dev libcmocka-dev libexpat1-dev \
 	python3 python3-numpy
 BENCH_PACKAGES := python3 python3-vtk9 python3-numpy xvfb xauth
+WINDOW_PACKAGES := libgtk-4-dev xvfb xauth xdotool imagemagick
 VALGRIND_PACKAGES := valgrind
 FUZZ_PACKAGES := clang-14 libclang-rt-14-dev
 DOCS_PACKAGES := groff gnuplot-nox python3
@@ -46,7 +47,7 @@ else
 packages = :
 endif
 
-.PHONY: all configure demo test sanitize valgrind hard fuzz bench docs performance install clean
+.PHONY: all configure window_packages demo test sanitize valgrind hard fuzz bench docs performance install clean
 .DEFAULT_GOAL := all
 
 all: configure
@@ -56,7 +57,7 @@ all: configure
 configure:
 	@$(call packages,$(BASE_PACKAGES))
 	@mkdir -p $(BUILD)
-	@settings='$(BUILD_TYPE) $(WERROR) $(PREFIX) $(CMAKE_ARGS)'; \
+	@settings='$(BUILD_TYPE) $(WERROR) $(PREFIX) $(CMAKE_ARGS) '"$$(pkg-config --modversion gtk4 2>/dev/null)"; \
 	if [ "$$settings" != "$$(cat $(BUILD)/.settings 2>/dev/null)" ] || [ ! -f $(BUILD)/CMakeCache.txt ]; then \
 		$(CONFIGURE) && echo "$$settings" >$(BUILD)/.settings; \
 	fi
@@ -66,7 +67,11 @@ demo: all
 		--opacity 12:0.5,75:8 --background 1,1,1 --verify 1024 -o $(BUILD)/demo.png
 	@echo "The picture is $(BUILD)/demo.png"
 
-test: configure
+# Before the configuration, which looks for GTK.
+window_packages:
+	@$(call packages,$(WINDOW_PACKAGES)) || echo "without GTK 4 the window is neither built nor tested" >&2
+
+test: window_packages configure
 	@$(call packages,$(FUZZ_PACKAGES)) || echo "without clang the fuzz tests are skipped" >&2
 	cmake --build $(BUILD) -j $(JOBS) --target all --target all_tests
 	cd $(BUILD) && ctest --output-on-failure -j 2
