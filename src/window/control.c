@@ -76,12 +76,16 @@ static tc_control_kind kind_of(const tc_option *option)
     return TC_CONTROL_NONE;
 }
 
-/* "--specular-power" as "Specular power". */
+/* "--specular-power" as "Specular power", in the spelling of the window's other words. */
 static void title_of(char *out, size_t capacity, const char *name)
 {
-    snprintf(out, capacity, "%s", name + strspn(name, "-"));
-    for (char *at = out; *at; at++)
-        *at = *at == '-' ? ' ' : *at;
+    size_t n = 0;
+    for (const char *at = name + strspn(name, "-"); *at && n + 1 < capacity; at++) {
+        if (at[0] == 'r' && n > 3 && !memcmp(&out[n - 3], "olo", 3) && n + 2 < capacity)
+            out[n++] = 'u';
+        out[n++] = (char)(*at == '-' ? ' ' : *at);
+    }
+    out[n] = 0;
     *out = (char)toupper((unsigned char)*out);
 }
 

@@ -116,6 +116,7 @@ tc_effect_row *tc_effect_box_new(tc_effect_hub *hub, const tc_control *control)
     gtk_accessible_update_property(GTK_ACCESSIBLE(row->second), GTK_ACCESSIBLE_PROPERTY_LABEL, control->title, -1);
     g_signal_connect(row->second, "notify::active", G_CALLBACK(tc_box_switched), row);
     gtk_box_append(GTK_BOX(row->line), row->second);
+    row->widget = grid;
     tc_effect_row_put(row, grid, true);
     return row;
 }

@@ -220,6 +220,11 @@ static void tc_surfaces_fill(tc_effect_row *row)
                    fabs(gtk_adjustment_get_value(own->line[i].opacity) - opacity) < 1e-5 &&
                    own->line[i].own_color == (look->iso_color.n > 0);
         }
+        for (int i = 0; i < own->n && same; i++) {
+            const GdkRGBA color = tc_map_color(row->hub->session, gtk_adjustment_get_value(own->line[i].value));
+            if (!own->line[i].own_color)
+                gtk_color_chooser_set_rgba(GTK_COLOR_CHOOSER(own->line[i].color), &color);
+        }
         if (same)
             return;
     }

@@ -32,6 +32,12 @@ static void tc_effects_heard(void *user, unsigned changes)
         tc_effect_data_fill(panel->data);
     if (changes & (TC_CHANGE_DATA | TC_CHANGE_LOOK))
         tc_effects_fill(panel);
+    else if (changes & TC_CHANGE_FUNCTION) /* surfaces have the map's colours */
+        for (guint i = 0; i < panel->row->len; i++) {
+            tc_effect_row *row = g_ptr_array_index(panel->row, i);
+            if (row->control.kind == TC_CONTROL_SURFACES)
+                tc_effect_row_fill(row);
+        }
 }
 
 /* A part of the panel that folds. */
