@@ -284,9 +284,10 @@ static void tc_curve_heard(void *user, unsigned changes)
     gtk_widget_queue_draw(curve->area);
 }
 
-static void tc_curve_gone(GtkWidget *box, gpointer user)
+/* The area goes before its box. */
+static void tc_curve_gone(GtkWidget *area, gpointer user)
 {
-    (void)box;
+    (void)area;
     tc_curve *curve = user;
     tc_plot_unlisten(curve->session, curve);
     if (curve->popover)
@@ -326,7 +327,7 @@ GtkWidget *tc_curve_new(tc_session *session)
     tc_curve_pointer_attach(curve);
     tc_curve_keys_attach(curve);
     g_object_set_data_full(G_OBJECT(curve->box), TC_CURVE_DATA, curve, tc_curve_free);
-    g_signal_connect(curve->box, "destroy", G_CALLBACK(tc_curve_gone), curve);
+    g_signal_connect(curve->area, "destroy", G_CALLBACK(tc_curve_gone), curve);
     tc_curve_tool_set(curve, TC_TOOL_SELECT);
     tc_curve_top_set(curve, 1);
     tc_curve_fit(curve, true);
