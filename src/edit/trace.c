@@ -158,6 +158,11 @@ tc_status tc_trace_open(tc_trace **out, const char *path, tc_error *err)
     return TC_OK;
 }
 
+bool tc_trace_keeps(const tc_trace *trace)
+{
+    return trace && trace->path;
+}
+
 double tc_trace_now(void)
 {
     struct timespec now;

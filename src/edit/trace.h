@@ -11,6 +11,8 @@ typedef struct tc_trace tc_trace;
  * closed, but that a file can be made beside it is tried. Events are kept in memory, 56 bytes each. Errors:
  * TC_E_MEMORY, TC_E_FILE; *out is NULL then. */
 tc_status tc_trace_open(tc_trace **out, const char *path, tc_error *err);
+/* Does it keep anything? */
+bool tc_trace_keeps(const tc_trace *trace);
 /* Milliseconds of a monotonic clock. */
 double tc_trace_now(void);
 /* From any thread. what, key: static texts; key NULL: no value; a value that is not finite is left out. id: what

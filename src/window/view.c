@@ -42,6 +42,10 @@ static void ask(view *v, bool moving)
 {
     const int scale = gtk_widget_get_scale_factor(v->area);
     const int width = gtk_widget_get_width(v->area) * scale, height = gtk_widget_get_height(v->area) * scale;
+    if (width != v->session->width || height != v->session->height) {
+        tc_trace_mark(v->session->trace, "size", v->id, "width", width);
+        tc_trace_mark(v->session->trace, "size", v->id, "height", height);
+    }
     v->session->width = width;
     v->session->height = height;
     if (v->pictures && v->id > 0)

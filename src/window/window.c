@@ -5,6 +5,7 @@
 #include "window/effects.h"
 #include "window/files.h"
 #include "window/presets.h"
+#include "window/pulse.h"
 #include "window/view.h"
 
 #include <math.h>
@@ -243,6 +244,7 @@ GtkWindow *tc_window_new(GtkApplication *application, tc_session *session)
     heard(w, TC_CHANGE_HISTORY | TC_CHANGE_BUSY | TC_CHANGE_SAID);
     tc_files_attach(w->window, session);
     gtk_window_present(w->window);
+    tc_pulse_attach(w->window, session->trace);
     return w->window;
 }
 

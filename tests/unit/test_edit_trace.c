@@ -80,6 +80,7 @@ static void events_are_in_the_file_with_their_times(void **state)
     tc_trace *trace;
     unlink(path);
     assert_int_equal(tc_trace_open(&trace, path, NULL), TC_OK);
+    assert_true(tc_trace_keeps(trace));
     assert_int_equal(files_in_folder(), 0);
     double before = tc_trace_now();
     tc_trace_mark(trace, "pointer", 7, NULL, 3);
@@ -148,6 +149,7 @@ static void a_trace_without_a_file_keeps_nothing(void **state)
     (void)state;
     tc_trace *trace;
     assert_int_equal(tc_trace_open(&trace, NULL, NULL), TC_OK);
+    assert_false(tc_trace_keeps(trace));
     tc_trace_mark(trace, "pointer", 1, NULL, 0);
     tc_trace_span(trace, "render", 0, 1, 1, "divide", 1);
     assert_int_equal(tc_trace_close(&trace, NULL), TC_OK);
