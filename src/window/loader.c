@@ -82,6 +82,8 @@ static gboolean arrived(gpointer user)
         tc_session_say(session, "%s", ""); /* what was said before is over */
     } else {
         tc_session_say(session, "%s", *l->talk.last ? l->talk.last : "the data could not be read");
+        tc_settings_destroy(&session->wanted); /* all is as it was */
+        session->fresh = session->fresh && !session->run.mesh;
     }
     load_free(l);
     tc_session_tell(session, TC_CHANGE_BUSY);
@@ -100,7 +102,7 @@ static gpointer work(gpointer user)
     return NULL;
 }
 
-/* Begins with the session's settings, changed. */
+/* Begins with the session's settings, or those that are wanted, changed. */
 static bool start(tc_session *session, const char *const (*change)[2], size_t n)
 {
     tc_settings *settings = NULL;
@@ -109,8 +111,10 @@ static bool start(tc_session *session, const char *const (*change)[2], size_t n)
         return false;
     }
     session->talk.last[0] = 0;
-    if (tc_settings_change(&settings, session->settings, change, n, &session->talk, session->command) >= 0) {
+    const tc_settings *from = session->wanted ? session->wanted : session->settings;
+    if (tc_settings_change(&settings, from, change, n, &session->talk, session->command) >= 0) {
         tc_session_say(session, "%s", session->talk.last);
+        tc_settings_destroy(&session->wanted);
         return false;
     }
     load *l = g_new0(load, 1);

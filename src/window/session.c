@@ -115,7 +115,8 @@ bool tc_session_reopen(tc_session *session, int argc, char **argv)
         tc_session_say(session, "%s", session->talk.last);
         return false;
     }
-    settings_take(session, made);
+    tc_settings_destroy(&session->wanted);
+    session->wanted = made;
     session->fresh = true;
     return true;
 }
@@ -307,6 +308,7 @@ int tc_session_close(tc_session *session)
     tc_render_close(&session->run);
     tc_held_drop(&session->look);
     tc_held_drop(&session->mesh);
+    tc_settings_destroy(&session->wanted);
     tc_settings_destroy(&session->settings);
     return status == TC_OK ? -1 : tc_talk_status(&session->talk, status, &err);
 }
@@ -441,6 +443,7 @@ void tc_session_loaded(tc_session *session, tc_render_run *run, tc_settings *set
     *run = (tc_render_run){0};
     if (settings)
         settings_take(session, settings);
+    tc_settings_destroy(&session->wanted);
     session->run.options = &session->options;
     tc_held_drop(&session->look);
     tc_held_drop(&session->mesh);
