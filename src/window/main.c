@@ -8,8 +8,9 @@
 
 typedef struct program {
     tc_session session;
-    GtkWindow *window;
-    int code; /* exit code; -1: all went well */
+    GtkWindow *window;  /* NULL: not yet, or gone */
+    GtkWidget *content; /* of it, held */
+    int code;           /* exit code; -1: all went well */
 } program;
 
 /* What could not be read at all leaves nothing to show: the sentence was printed. */
@@ -35,6 +36,7 @@ static void activate(GtkApplication *application, gpointer user)
 {
     program *p = user;
     GtkWindow *window = tc_window_new(application, &p->session);
+    p->content = g_object_ref(tc_window_content(window));
     if (*tc_window_refused(window)) {
         tc_talk_error(&p->session.talk, "%s", tc_window_refused(window));
         p->code = TC_EXIT_FAILED;
@@ -88,6 +90,7 @@ int main(int argc, char **argv)
     g_unix_signal_add(SIGTERM, told_to_end, application);
     g_unix_signal_add(SIGINT, told_to_end, application);
     g_application_run(G_APPLICATION(application), 1, argv);
+    g_clear_object(&p.content);
     g_object_unref(application);
     const bool loading = p.session.busy; /* by a thread that goes with the program */
     code = loading ? -1 : tc_session_close(&p.session);

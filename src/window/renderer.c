@@ -13,7 +13,7 @@
 /* SLOTS: textures: two layers being made, two ready, two shown, one to come. */
 /* TELL_EVERY_MS: what is not whole is shown so often; in software showing a picture costs about what a part of one
  * does. */
-enum { SLOTS = 8, KEEP_BYTES = 256 << 20, TELL_EVERY_MS = 400 };
+enum { SLOTS = 8, KEEP_BYTES = 256 << 20, KEEP_STEPS = 8192, TELL_EVERY_MS = 400 };
 
 typedef struct request {
     tc_held *held; /* mesh and look; NULL: nothing to show */
@@ -343,6 +343,9 @@ static bool render(tc_pictures *p, const tc_step *step, bool kept)
     const GLuint texture = whole ? layer_texture : part_texture(p, width, step->rows);
     const bool keep = p->along && p->now.moving && whole;
     tc_renderer_keep(p->renderer, keep ? KEEP_BYTES : 0, true);
+    if (keep && options.steps_per_pass == 0) /* kept walks are gone along in one pass; sums are rounded elsewhere, which is
+                                                not seen while something moves */
+        options.steps_per_pass = KEEP_STEPS;
     tc_status status = TC_E_GL;
     if (!target(p, texture))
         snprintf(err.text, sizeof err.text, "OpenGL cannot draw into a texture of floats of %dx%d pixels", width,
@@ -362,7 +365,8 @@ static bool render(tc_pictures *p, const tc_step *step, bool kept)
     tc_trace_span(p->trace, "render", begin, end, p->now.id, "divide", divide);
     if (stats.ms_table > 0.01) /* it was built for this picture */
         tc_trace_span(p->trace, "table", begin, begin + stats.ms_table, p->now.id, NULL, 0);
-    tc_schedule_done(&p->schedule, step, fmax(end - begin - once, 0.01), kept && stats.kept);
+    const bool recorded = stats.bytes_kept > p->making.stats.bytes_kept; /* which takes as long as two pictures */
+    tc_schedule_done(&p->schedule, step, fmax(end - begin - once, 0.01), kept && stats.kept && !recorded);
     into->rows = step->from + step->rows;
     made *m = &p->making;
     m->stats = stats;

@@ -1,6 +1,7 @@
 /* view.c: the picture, as a widget. */
 #include "window/view.h"
 #include "window/camera_drag.h"
+#include "window/plot.h"
 #include "window/view_draw.h"
 
 #include <math.h>
@@ -423,6 +424,7 @@ static void destroyed(GtkWidget *widget, gpointer user)
     v->rest = v->probe_idle = 0;
     v->changed = NULL;
     v->probed = NULL;
+    tc_plot_unlisten(v->session, v);
 }
 
 static void controllers_add(view *v)

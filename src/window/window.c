@@ -4,6 +4,7 @@
 #include "window/curve.h"
 #include "window/effects.h"
 #include "window/files.h"
+#include "window/plot.h"
 #include "window/presets.h"
 #include "window/pulse.h"
 #include "window/view.h"
@@ -14,7 +15,7 @@
 typedef struct window {
     GtkWindow *window;
     tc_session *session;
-    GtkWidget *view, *curve, *progress, *said, *speed, *error;
+    GtkWidget *content, *view, *curve, *progress, *said, *speed, *error;
 } window;
 
 static window *window_of(GtkWindow *widget)
@@ -215,6 +216,18 @@ static GtkWidget *side_new(window *w)
     return paned;
 }
 
+static void gone(GtkWidget *widget, gpointer user)
+{
+    window *w = user;
+    (void)widget;
+    tc_plot_unlisten(w->session, w);
+}
+
+GtkWidget *tc_window_content(GtkWindow *widget)
+{
+    return window_of(widget)->content;
+}
+
 GtkWindow *tc_window_new(GtkApplication *application, tc_session *session)
 {
     window *w = g_new0(window, 1);
@@ -239,6 +252,8 @@ GtkWindow *tc_window_new(GtkApplication *application, tc_session *session)
     gtk_box_append(GTK_BOX(box), gtk_separator_new(GTK_ORIENTATION_HORIZONTAL));
     gtk_box_append(GTK_BOX(box), status_new(w));
     gtk_window_set_child(w->window, box);
+    w->content = box;
+    g_signal_connect(widget, "destroy", G_CALLBACK(gone), w);
     tc_session_listen(session, heard, w);
     title_make(w);
     heard(w, TC_CHANGE_HISTORY | TC_CHANGE_BUSY | TC_CHANGE_SAID);

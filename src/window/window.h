@@ -10,5 +10,8 @@
 GtkWindow *tc_window_new(GtkApplication *application, tc_session *session);
 /* Why the window cannot show pictures at all; "": it can. Borrowed from window. */
 const char *tc_window_refused(GtkWindow *window);
+/* What is in it, borrowed. To be held until the main loop has ended: the display lets go of the widgets that pointer
+ * and keyboard were at later than the window does, and they are to go before those that they lie in. */
+GtkWidget *tc_window_content(GtkWindow *window);
 
 #endif
