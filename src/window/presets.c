@@ -32,6 +32,7 @@ typedef struct tc_presets {
     GListStore *store;
     GtkCustomFilter *filter;
     GtkSingleSelection *selection;
+    char *searched;     /* what the list shows; NULL: all */
     GCancellable *gone; /* what is being read is not wanted any more */
 } tc_presets;
 
@@ -60,23 +61,25 @@ static void tc_presets_activate(GtkListView *view, guint position, gpointer user
     g_clear_object(&item);
 }
 
-/* Enter in the search takes the first map that it finds. */
-static void tc_presets_search_enter(GtkSearchEntry *entry, gpointer user)
-{
-    (void)entry;
-    tc_presets *panel = user;
-    const guint at = gtk_single_selection_get_selected(panel->selection);
-    if (at != GTK_INVALID_LIST_POSITION)
-        tc_presets_activate(NULL, at, panel);
-}
-
 static void tc_presets_search_changed(GtkSearchEntry *entry, gpointer user)
 {
-    (void)entry;
     tc_presets *panel = user;
+    g_free(panel->searched);
+    panel->searched = g_strdup(gtk_editable_get_text(GTK_EDITABLE(entry)));
     gtk_filter_changed(GTK_FILTER(panel->filter), GTK_FILTER_CHANGE_DIFFERENT);
     if (g_list_model_get_n_items(G_LIST_MODEL(panel->selection)) > 0)
         gtk_single_selection_set_selected(panel->selection, 0);
+}
+
+/* Enter in the search takes the first map that it finds, also where it has not told yet of what was typed last. */
+static void tc_presets_search_enter(GtkSearchEntry *entry, gpointer user)
+{
+    tc_presets *panel = user;
+    if (strcmp(panel->searched ? panel->searched : "", gtk_editable_get_text(GTK_EDITABLE(entry))) != 0)
+        tc_presets_search_changed(entry, user);
+    const guint at = gtk_single_selection_get_selected(panel->selection);
+    if (at != GTK_INVALID_LIST_POSITION)
+        tc_presets_activate(NULL, at, panel);
 }
 
 static gboolean tc_presets_is_found(gpointer item, gpointer user)
@@ -299,6 +302,7 @@ static void tc_presets_free(gpointer data)
     tc_presets *panel = data;
     g_cancellable_cancel(panel->gone);
     g_object_unref(panel->gone);
+    g_free(panel->searched);
     g_free(panel);
 }
 
