@@ -1,6 +1,6 @@
 /* view.c: the picture, as a widget. */
 #include "window/view.h"
-#include "window/camera_drag.h"
+#include "edit/camera_drag.h"
 #include "window/plot.h"
 #include "window/view_draw.h"
 

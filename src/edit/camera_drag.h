@@ -1,7 +1,7 @@
 /* camera_drag.h: from moves of a pointer to cameras, as in ParaView: turn about what is looked at, shift, draw near,
  * roll. No GTK here. */
-#ifndef TC_WINDOW_CAMERA_DRAG_H
-#define TC_WINDOW_CAMERA_DRAG_H
+#ifndef TC_EDIT_CAMERA_DRAG_H
+#define TC_EDIT_CAMERA_DRAG_H
 
 #include "tetcast.h"
 

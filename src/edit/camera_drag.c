@@ -1,5 +1,5 @@
 /* camera_drag.c: from moves of a pointer to cameras. */
-#include "window/camera_drag.h"
+#include "edit/camera_drag.h"
 
 #include <math.h>
 #include <string.h>
