@@ -5,7 +5,7 @@
 run 0 --help
 prints "Usage: tetcast COMMAND"
 stderr_empty
-for command in render explain study info compare synth backends; do
+for command in render edit explain study info compare synth backends; do
     run 0 --help
     prints "  $command "
     run 0 $command --help
@@ -19,7 +19,7 @@ for command in render explain study info compare synth backends; do
     prints "tetcast "
     awk 'length($0) > 140 { exit 1 }' out || fail "a line of the help is too long"
 done
-for later in edit texture; do
+for later in texture; do
     run 0 --help
     ! grep -q "^  $later " out || fail "$later is listed, but is not there"
     run 2 $later

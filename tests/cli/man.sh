@@ -22,13 +22,13 @@ done
 # Of commands that take the options of render, too, the page has their own.
 run 0 render --help
 options <out >render
-for command in batch explain; do
+for command in batch explain edit; do
     page=$man/tetcast-$command.1
     [ -f "$page" ] || { fail "there is no $page"; continue; }
     run 0 $command --help
     options <out >help
     comm -13 render help >own
-    [ "$(wc -l <own)" -ge 2 ] || fail "--help lists no options of its own"
+    [ -s own ] || fail "--help of $command lists no options of its own"
     sed 's/\\-/-/g' "$page" | grep -v '^\.\\"' | options | comm -13 help - >unknown
     [ ! -s unknown ] || fail "tetcast-$command.1 names what is no option: $(cat unknown)"
     grep -q "tetcast\\\\-$command" "$man/tetcast.1" || fail "tetcast.1 does not name $command"
