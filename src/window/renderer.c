@@ -495,12 +495,12 @@ void tc_pictures_destroy(tc_pictures **pictures)
     tc_pictures *p = *pictures;
     if (!p)
         return;
-    tc_checker_destroy(&p->checker); /* what it finds, it tells here */
     g_mutex_lock(&p->lock);
     p->quit = true;
     g_cond_signal(&p->more);
     g_mutex_unlock(&p->lock);
-    g_thread_join(p->thread);
+    g_thread_join(p->thread);        /* the thread hands pictures to the checker until it ends */
+    tc_checker_destroy(&p->checker); /* what it finds, it tells here */
     if (p->idle)
         g_source_remove(p->idle);
     request_finish(&p->next);
