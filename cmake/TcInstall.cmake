@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 set(tc_helpers)
-foreach(helper tetcast-read tetcast-convexify tetcast-image)
+foreach(helper tetcast-read tetcast-convexify tetcast-image tetcast-edit)
   if(TARGET ${helper})
     list(APPEND tc_helpers ${helper})
   endif()

@@ -73,6 +73,7 @@ static gboolean arrived(gpointer user)
     tc_session *session = l->session;
     g_source_remove(l->shows);
     session->busy = false;
+    session->code = l->code;
     if (l->code < 0) {
         tc_settings *settings = l->settings;
         tc_histogram *histogram = l->histogram;

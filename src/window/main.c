@@ -19,7 +19,7 @@ static void heard(void *user, unsigned changes)
     program *p = user;
     if (!(changes & TC_CHANGE_BUSY) || p->session.busy || p->session.run.mesh || !p->window)
         return;
-    p->code = TC_EXIT_FAILED;
+    p->code = p->session.code;
     gtk_window_destroy(p->window);
     p->window = NULL;
 }

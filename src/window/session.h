@@ -28,8 +28,8 @@ typedef struct tc_session {
     tc_talk talk;
     const tc_command *command; /* of the options' table */
     tc_trace *trace;
-    tc_settings *settings;     /* the words of options */
-    tc_settings *wanted;       /* those of tc_session_reopen, until their data are there or cannot be read; NULL: none */
+    tc_settings *settings; /* the words of options */
+    tc_settings *wanted;   /* those of tc_session_reopen, until their data are there or cannot be read; NULL: none */
     tc_render_command options; /* of the command line, or of the scene that was opened; --opacity, --color-map, --range,
                                   --log, --unit-distance, --nan-color and the camera's are those of the beginning:
                                   document and camera hold now. Its texts are those of settings */
@@ -47,7 +47,8 @@ typedef struct tc_session {
     unsigned gestures;       /* so far */
     bool fresh;              /* document and camera are to be taken from what is loaded next */
     bool busy;
-    struct { /* while busy */
+    int code; /* of what was read last: -1: it is there; else the exit code that render would have */
+    struct {  /* while busy */
         char what[64];
         double fraction; /* below 0: not known */
     } progress;
@@ -95,8 +96,8 @@ const char *tc_session_get(const tc_session *session, const char *option);
 
 /* A sentence for the user into said, and tells. */
 void tc_session_say(tc_session *session, const char *format, ...) TC_CLI_PRINTF(2, 3);
-/* Another INPUT and its options in the place of what is there, argv as of tc_session_open: data, a scene, a picture that
- * carries one. Nothing is read yet: start the loader; options, document and camera become the new ones when it has
+/* Another INPUT and its options in the place of what is there, argv as of tc_session_open: data, a scene, a picture
+ * that carries one. Nothing is read yet: start the loader; options, document and camera become the new ones when it has
  * loaded, the document as one step that can be undone; if it cannot, all is as it was. False, and the sentence in said:
  * it cannot be, and all is as it was. */
 bool tc_session_reopen(tc_session *session, int argc, char **argv);

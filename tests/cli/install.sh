@@ -17,6 +17,11 @@ printf 'FORMAT\ntype: ensight gold\nGEOMETRY\nmodel: a.geo\n' >a.case # needs th
 run 1 info a.case
 says "a.case"
 says_not "cannot be loaded"
+if [ -x "$TC_BUILD/tetcast-edit" ]; then
+    (unset DISPLAY WAYLAND_DISPLAY; "$TETCAST" edit sink.vtu) >out 2>err && fail "a window without a display"
+    says "there is no display" # and not: there is no tetcast-edit
+    ldd moved/libexec/tetcast/tetcast-edit | grep -q "libtetcast.*=> $work/moved/" || fail "tetcast-edit has another library"
+fi
 
 if [ "${TC_SANITIZE:-OFF}" = ON ]; then
     echo "sanitizers: a plain C program cannot load the library first; that part is left out"
