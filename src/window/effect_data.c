@@ -146,7 +146,7 @@ static GtkWidget *tc_line(GtkWidget *box, const char *title, GtkWidget *widget)
 {
     GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8), *label = gtk_label_new(title);
     gtk_label_set_xalign(GTK_LABEL(label), 0);
-    gtk_widget_set_size_request(label, 112, -1);
+    gtk_widget_set_size_request(label, 126, -1);
     gtk_widget_set_hexpand(widget, TRUE);
     gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL, title, -1);
     gtk_box_append(GTK_BOX(line), label);

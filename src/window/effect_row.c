@@ -35,7 +35,7 @@ tc_effect_row *tc_effect_row_frame(tc_effect_hub *hub, const tc_control *control
     gtk_widget_set_tooltip_text(row->line, tip);
     g_free(tip);
     gtk_label_set_xalign(GTK_LABEL(row->label), 0);
-    gtk_widget_set_size_request(row->label, 112, -1);
+    gtk_widget_set_size_request(row->label, 126, -1);
     gtk_label_set_xalign(GTK_LABEL(row->wrong), 0);
     gtk_label_set_wrap(GTK_LABEL(row->wrong), TRUE);
     gtk_label_set_max_width_chars(GTK_LABEL(row->wrong), 40);

@@ -62,6 +62,17 @@ static void tc_effects_row(tc_effects *panel, GtkWidget *section, const tc_optio
     g_ptr_array_add(panel->row, row);
 }
 
+/* The wheel scrolls the panel, and turns no slider that comes under it. */
+static gboolean tc_effects_wheel(GtkEventControllerScroll *wheel, double dx, double dy, gpointer user)
+{
+    enum { NOTCH = 48 }; /* pixels */
+    (void)dx;
+    GtkAdjustment *at = gtk_scrolled_window_get_vadjustment(user);
+    const bool notches = gtk_event_controller_scroll_get_unit(wheel) == GDK_SCROLL_UNIT_WHEEL;
+    gtk_adjustment_set_value(at, gtk_adjustment_get_value(at) + dy * (notches ? NOTCH : 1));
+    return TRUE;
+}
+
 static void tc_effects_destroyed(GtkWidget *widget, gpointer user)
 {
     (void)widget;
@@ -90,8 +101,10 @@ GtkWidget *tc_effects_new(tc_session *session)
     panel->data = tc_effect_data_new(session);
     gtk_box_append(GTK_BOX(box), panel->data);
     for (size_t i = 0; i < TC_N_LOOK_OPTION; i++) {
+        const bool figure = !strcmp(tc_look_option[i].help, "Figure");
         if (!tc_look_option[i].name)
-            section = tc_section(box, tc_look_option[i].help, i == 0);
+            section =
+                tc_section(box, figure ? "Figure (over pictures that are saved)" : tc_look_option[i].help, i == 0);
         else
             tc_effects_row(panel, section, &tc_look_option[i]);
     }
@@ -110,5 +123,9 @@ GtkWidget *tc_effects_new(tc_session *session)
     gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroll), GTK_POLICY_NEVER, GTK_POLICY_AUTOMATIC);
     gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroll), box);
     gtk_widget_set_vexpand(scroll, TRUE);
+    GtkEventController *wheel = gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
+    gtk_event_controller_set_propagation_phase(wheel, GTK_PHASE_CAPTURE);
+    g_signal_connect(wheel, "scroll", G_CALLBACK(tc_effects_wheel), scroll);
+    gtk_widget_add_controller(scroll, wheel);
     return scroll;
 }
