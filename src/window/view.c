@@ -2,6 +2,7 @@
 #include "window/view.h"
 #include "edit/camera_drag.h"
 #include "window/plot.h"
+#include "window/probing.h"
 #include "window/view_draw.h"
 
 #include <math.h>
@@ -27,6 +28,7 @@ typedef struct view {
     double last_x, last_y; /* of the drag */
     double x, y;           /* of the pointer; NAN: not here */
     bool probing;
+    tc_probing *rays;
     guint probe_idle;
     void (*changed)(void *user, const tc_shown *shown);
     void *changed_user;
@@ -55,28 +57,28 @@ static void ask(view *v, bool moving)
 
 /* ----------------------------------------------------------------------------------------------------------- probe */
 
+static void ray_met(void *user, const tc_probe *probe)
+{
+    view *v = user;
+    if (v->probed)
+        v->probed(v->probed_user, v->probing ? probe : NULL);
+}
+
 static gboolean probe_now(gpointer user)
 {
     view *v = user;
     const tc_session *s = v->session;
     const int scale = gtk_widget_get_scale_factor(v->area);
-    const int x = (int)floor(v->x * scale), y = (int)floor(v->y * scale);
-    tc_probe *probe = NULL;
-    tc_transfer *tf = NULL;
+    const double x = floor(v->x * scale), y = floor(v->y * scale); /* NAN: the pointer is elsewhere */
+    const bool there = v->probing && x >= 0 && y >= 0 && x < s->width && y < s->height;
     v->probe_idle = 0;
-    if (v->probing && s->run.mesh && isfinite(v->x) && x >= 0 && y >= 0 && x < s->width && y < s->height &&
-        tc_document_function(&tf, s->document, NULL) == TC_OK)
-        tc_mesh_probe(&probe, s->run.mesh, tf, s->document->unit_distance, &s->camera, s->width, s->height, x, y, NULL);
-    tc_transfer_destroy(&tf);
-    if (v->probed)
-        v->probed(v->probed_user, probe);
-    tc_probe_destroy(&probe);
+    tc_probing_ask(v->rays, there ? (int)x : -1, there ? (int)y : -1);
     return G_SOURCE_REMOVE;
 }
 
 static void probe_soon(view *v)
 {
-    if (v->probing && !v->probe_idle)
+    if (v->probing && v->rays && !v->probe_idle)
         v->probe_idle = g_idle_add_full(G_PRIORITY_DEFAULT_IDLE - 90, probe_now, v, NULL);
 }
 
@@ -92,7 +94,7 @@ void tc_view_probe(GtkWidget *widget, bool on)
         return;
     v->probing = on;
     gtk_widget_set_cursor_from_name(widget, on ? "crosshair" : NULL);
-    if (!v->probe_idle)
+    if (v->rays && !v->probe_idle)
         v->probe_idle = g_idle_add_full(G_PRIORITY_DEFAULT_IDLE - 90, probe_now, v, NULL);
 }
 
@@ -425,6 +427,8 @@ static void destroyed(GtkWidget *widget, gpointer user)
     v->changed = NULL;
     v->probed = NULL;
     tc_plot_unlisten(v->session, v);
+    tc_probing_free(v->rays);
+    v->rays = NULL;
 }
 
 static void controllers_add(view *v)
@@ -470,6 +474,7 @@ GtkWidget *tc_view_new(tc_session *session)
     g_signal_connect(v->area, "resize", G_CALLBACK(resized), v);
     g_signal_connect(v->area, "destroy", G_CALLBACK(destroyed), v);
     controllers_add(v);
+    v->rays = tc_probing_new(session, ray_met, v);
     tc_session_listen(session, heard, v);
     return v->area;
 }

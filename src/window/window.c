@@ -159,7 +159,6 @@ static GtkWidget *picture_new(window *w)
     GtkWidget *overlay = gtk_overlay_new();
     w->view = tc_view_new(w->session);
     w->progress = gtk_progress_bar_new();
-    gtk_widget_add_css_class(w->progress, "osd");
     gtk_widget_set_valign(w->progress, GTK_ALIGN_START);
     gtk_widget_set_visible(w->progress, FALSE);
     gtk_accessible_update_property(GTK_ACCESSIBLE(w->progress), GTK_ACCESSIBLE_PROPERTY_LABEL, "Reading data", -1);
