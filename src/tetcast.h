@@ -333,9 +333,10 @@ TC_API void tc_transfer_destroy(tc_transfer **tf);
 /* Names of the built-in maps; *n gets their count. */
 TC_API const char *const *tc_transfer_builtin(size_t *n);
 typedef struct tc_text_pair tc_text_pair;
-/* All maps of color_map, as of tc_transfer_options, in their order: of each its name (key) and, as value, a preset of it alone in clean JSON, which
- * that option takes again; points are in order, IndexedColors are points. Those that cannot be used are left out. *out [*n] is one block from malloc
- * with all texts in it. Errors: as tc_transfer_create. Cost: reads the file once. */
+/* All maps of color_map, as of tc_transfer_options, in their order: of each its name (key) and, as value, a preset of it
+ * alone in clean JSON, which that option takes again; points are in order, IndexedColors are points. Those that cannot be
+ * used are left out. *out [*n] is one block from malloc with all texts in it. Errors: as tc_transfer_create. Cost: reads
+ * the file once. */
 TC_API tc_status tc_transfer_presets(tc_text_pair **out, size_t *n, const char *color_map, tc_error *err);
 
 /* A function that errors and times are measured with: "smooth", "knots12", "spike" or "steps". */
