@@ -346,6 +346,25 @@ def batch(page):
               "frame", "MiB", [("", style(0), over["points"])], "off", "unset logscale\nset yrange [0:*]")
 
 
+def edit(page):
+    data = page.section("edit")
+    if not data:
+        return page.absent("The window", "edit")
+    whole, large = data["whole"], data["large"][0]
+    titles = [("curve_wait_ms", "curve: pointer to picture, ms"), ("curve_wait_most_of_ten_ms", "… of nine moves in ten, at most"),
+              ("curve_pictures_per_second", "… pictures a second"), ("curve_divide", "… each side divided by"),
+              ("curve_rest_ms", "… last move to full accuracy, ms"), ("function_ms", "… function, table and upload, ms"),
+              ("orbit_wait_ms", "view: pointer to picture, ms"), ("orbit_wait_most_of_ten_ms", "… of nine moves in ten, at most"),
+              ("orbit_pictures_per_second", "… pictures a second"), ("orbit_divide", "… each side divided by"),
+              ("orbit_rest_ms", "… last move to full accuracy, ms"),
+              ("event_ms", f"{count(large['cells'])} cells: longest wait of an event, ms")]
+    rows = [[title, num(whole[key]["median"]), num(whole[key]["least"])] if whole[key] else [title, None, None] for key, title in titles]
+    page.add(f"## The window\n\n`tetcast edit`, Blunt Fin, a picture of {data['size'][0]}×{data['size'][1]}, under Xvfb with a pointer that moves 60 "
+             "times a second: it drags a point of the opacity curve, rests, turns the view, rests. By the window's own trace; a move waits from when "
+             "the display took it until the picture of it, or of a later one, was painted. The last line is of another mesh, from when its window "
+             "opened: read, drawn, turned and refined.\n\n" + table(["", f"median of {len(data['runs'])} runs", "least"], rows))
+
+
 def make(results, out):
     page = Page(results, out)
     renderers = {r["stats"]["gl"]["renderer"] for row in (page.section("peers") or {"rows": []})["rows"] for r in row["runs"]
@@ -359,7 +378,7 @@ def make(results, out):
     loads = [name for name, entry in results["sections"].items() if entry["load"] > results["cores"] + 0.5]
     if loads:
         page.add(f"Other work ran beside these sections, whose times are therefore too long: {', '.join(loads)}.")
-    for part in (bars, peers, passes, integration, parts, signs, memory, growth, batch, small):
+    for part in (bars, peers, passes, integration, parts, signs, memory, growth, batch, edit, small):
         part(page)
     path = os.path.join(out, "performance.md")
     with open(path + ".part", "w", encoding="utf-8") as file:

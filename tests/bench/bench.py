@@ -14,6 +14,7 @@ Sections (--only A,B,… takes some; the results of the others stay):
   transfer     a new transfer function to the next frame
   values       new values on the same mesh
   batch        frames a minute of a batch, against the same loop in VTK's Python and tetcast once a frame
+  edit         the window: from a move of the pointer to its picture, and how long it lets events wait
   cold         process start to written PNG, against a VTK script
   growth       set-up and frame time against the number of cells, up to 5e7
   tables       the pre-integration table, incremental against entry by entry
@@ -32,6 +33,7 @@ import time
 sys.dont_write_bytecode = True
 import batch  # noqa: E402
 import common  # noqa: E402
+import edit  # noqa: E402
 import growth  # noqa: E402
 import peer_vtk  # noqa: E402
 import peers  # noqa: E402
@@ -40,8 +42,9 @@ import steps  # noqa: E402
 
 SECTIONS = {"peers": peers.measure, "passes": steps.passes, "integration": steps.integration, "parts": steps.parts,
             "signs": steps.signs, "bytes": programs.bytes_per_tet, "transfer": programs.transfer, "values": programs.values,
-            "batch": batch.measure, "cold": programs.cold_start, "growth": growth.measure, "tables": programs.tables, "counts": programs.counts}
-HAVE_BARS = {"peers", "integration", "bytes", "transfer", "values", "batch", "cold", "growth"}
+            "batch": batch.measure, "edit": edit.measure,
+            "cold": programs.cold_start, "growth": growth.measure, "tables": programs.tables, "counts": programs.counts}
+HAVE_BARS = {"peers", "integration", "bytes", "transfer", "values", "batch", "edit", "cold", "growth"}
 
 
 def parse():
