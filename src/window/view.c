@@ -4,6 +4,7 @@
 #include "window/plot.h"
 #include "window/probing.h"
 #include "window/view_draw.h"
+#include "window/view_figure.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,7 +23,8 @@ typedef struct view {
     char refused[1280];
     unsigned id, painted; /* of the last change, and of the last picture that was painted */
     bool whole_painted, checked_told, fresh;
-    bool hasty; /* keys or wheel move the camera */
+    bool figure_due; /* title, bar and axes are to be drawn anew */
+    bool hasty;      /* keys or wheel move the camera */
     guint rest;
     drag drag;
     double last_x, last_y; /* of the drag */
@@ -114,6 +116,7 @@ static void heard(void *user, unsigned changes)
     view *v = user;
     if (changes & (TC_CHANGE_FUNCTION | TC_CHANGE_CAMERA | TC_CHANGE_LOOK | TC_CHANGE_DATA)) {
         const bool moving = v->session->moving || v->hasty;
+        v->figure_due = true;
         v->id++;
         tc_trace_mark(v->session->trace, "pointer", v->id, "changes", changes);
         ask(v, moving);
@@ -152,6 +155,19 @@ static void background(float out[3], const view *v)
         out[i] = scene->there ? scene->rgba[i] + (1 - scene->rgba[3]) * under[i] : under[i];
 }
 
+/* Title, bar and axes, of the size and the state that the session has now. */
+static void figure_draw(view *v, const float under[3])
+{
+    if (!v->figure_due)
+        return;
+    tc_image *image = tc_view_figure_asked(v->session)
+                          ? tc_view_figure_make(v->session, v->session->width, v->session->height, under)
+                          : NULL;
+    tc_view_draw_figure(&v->draw, image);
+    tc_image_destroy(&image);
+    v->figure_due = false;
+}
+
 static gboolean draw(GtkGLArea *area, GdkGLContext *context, gpointer user)
 {
     view *v = user;
@@ -162,6 +178,7 @@ static gboolean draw(GtkGLArea *area, GdkGLContext *context, gpointer user)
         return FALSE;
     tc_pictures_show(v->pictures, &v->shown);
     background(under, v);
+    figure_draw(v, under);
     tc_view_draw_layers(&v->draw, &v->shown, under, gtk_widget_get_width(v->area) * scale,
                         gtk_widget_get_height(v->area) * scale);
     return TRUE;

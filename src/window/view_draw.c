@@ -63,7 +63,27 @@ void tc_view_draw_finish(tc_view_draw *draw)
     glDeleteProgram(draw->program);
     glDeleteVertexArrays(1, &draw->vertex_array);
     glDeleteSamplers(2, draw->sampler);
+    glDeleteTextures(1, &draw->figure.texture);
     *draw = (tc_view_draw){0};
+}
+
+void tc_view_draw_figure(tc_view_draw *draw, const tc_image *image)
+{
+    tc_layer *figure = &draw->figure;
+    if (!image) {
+        figure->rows = 0;
+        return;
+    }
+    if (!figure->texture)
+        glGenTextures(1, &figure->texture);
+    glBindTexture(GL_TEXTURE_2D, figure->texture);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, image->width, image->height, 0, GL_RGBA, GL_FLOAT, image->rgba);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    figure->width = image->width;
+    figure->height = figure->rows = image->height;
+    figure->stretch = 1;
 }
 
 static void draw_layer(const tc_view_draw *draw, const tc_layer *layer, int width, int height)
@@ -96,6 +116,8 @@ void tc_view_draw_layers(const tc_view_draw *draw, const tc_shown *shown, const 
         draw_layer(draw, &shown->over, width, height);
         glDisable(GL_SCISSOR_TEST);
     }
+    if (draw->figure.rows > 0)
+        draw_layer(draw, &draw->figure, width, height);
     glDisable(GL_BLEND);
     glBindSampler(0, 0);
     glBindTexture(GL_TEXTURE_2D, 0);
