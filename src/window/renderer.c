@@ -13,7 +13,9 @@
 /* SLOTS: textures: two layers being made, two ready, two shown, one to come. */
 /* TELL_EVERY_MS: what is not whole is shown so often; in software showing a picture costs about what a part of one
  * does. */
-enum { SLOTS = 8, KEEP_BYTES = 256 << 20, KEEP_STEPS = 8192, TELL_EVERY_MS = 400 };
+/* BUDGET_MS: of a picture while something moves. A move waits for half of the picture at hand, for its own and for some
+ * 30 ms until that is painted: 90 ms, so that 100 are kept with some room. */
+enum { SLOTS = 8, KEEP_BYTES = 256 << 20, KEEP_STEPS = 8192, TELL_EVERY_MS = 400, BUDGET_MS = 40 };
 
 typedef struct request {
     tc_held *held; /* mesh and look; NULL: nothing to show */
@@ -205,6 +207,7 @@ static void take_next(tc_pictures *p, request *next)
         tc_schedule_begin(&p->schedule, next->options.width, next->options.height);
     else if (sized)
         tc_schedule_resize(&p->schedule, next->options.width, next->options.height);
+    p->schedule.budget_ms = BUDGET_MS;
     if (view) { /* the walks of the view before will not come again */
         if (p->renderer)
             tc_renderer_forget(p->renderer);
