@@ -2,6 +2,7 @@
 #include "window/presets.h"
 
 #include "edit/map_list.h"
+#include "window/plot.h"
 
 #include <string.h>
 
@@ -49,6 +50,25 @@ static void tc_map_take(tc_presets *panel, const tc_map_entry *entry)
         return;
     }
     tc_session_take(panel->session, document, "take a colour map");
+}
+
+/* The map that the function is of is the one that is marked; none, where the list does not show it. */
+static void tc_presets_mark(void *user, unsigned changes)
+{
+    tc_presets *panel = user;
+    GListModel *shown = G_LIST_MODEL(panel->selection);
+    const char *name = panel->session->document->name;
+    if (!(changes & (TC_CHANGE_FUNCTION | TC_CHANGE_DATA)) || (panel->searched && *panel->searched))
+        return;
+    guint at = 0, n = g_list_model_get_n_items(shown);
+    for (bool found = false; at < n && !found; at += !found) {
+        GObject *item = g_list_model_get_item(shown, at);
+        found = name && g_ascii_strcasecmp(tc_map_of(item)->name, name) == 0;
+        g_object_unref(item);
+    }
+    const guint mark = at < n ? at : GTK_INVALID_LIST_POSITION;
+    if (mark != gtk_single_selection_get_selected(panel->selection))
+        gtk_single_selection_set_selected(panel->selection, mark);
 }
 
 static void tc_presets_activate(GtkListView *view, guint position, gpointer user)
@@ -262,6 +282,8 @@ static void tc_reading_done(GObject *source, GAsyncResult *result, gpointer user
     }
     if (reading->take && list->n > 0)
         tc_map_take(panel, &list->entry[0]);
+    else if (!reading->path)
+        tc_presets_mark(panel, TC_CHANGE_FUNCTION);
     g_bytes_unref(keep);
 }
 
@@ -297,6 +319,13 @@ GtkWidget *tc_presets_in(GtkWindow *window)
     return g_object_get_data(G_OBJECT(window), TC_PRESETS_KEY);
 }
 
+static void tc_presets_gone(GtkWidget *box, gpointer user)
+{
+    (void)box;
+    tc_presets *panel = user;
+    tc_plot_unlisten(panel->session, panel);
+}
+
 static void tc_presets_free(gpointer data)
 {
     tc_presets *panel = data;
@@ -320,6 +349,8 @@ GtkWidget *tc_presets_new(tc_session *session)
     panel->filter = gtk_custom_filter_new(tc_presets_is_found, panel, NULL);
     GtkFilterListModel *found = gtk_filter_list_model_new(G_LIST_MODEL(panel->store), GTK_FILTER(panel->filter));
     panel->selection = gtk_single_selection_new(G_LIST_MODEL(found));
+    gtk_single_selection_set_autoselect(panel->selection, FALSE);
+    gtk_single_selection_set_can_unselect(panel->selection, TRUE);
     GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
     g_signal_connect(factory, "setup", G_CALLBACK(tc_row_setup), NULL);
     g_signal_connect(factory, "bind", G_CALLBACK(tc_row_bind), NULL);
@@ -345,5 +376,7 @@ GtkWidget *tc_presets_new(tc_session *session)
     gtk_box_append(GTK_BOX(panel->box), panel->search);
     gtk_box_append(GTK_BOX(panel->box), scroll);
     tc_presets_read(panel, NULL, false);
+    tc_session_listen(session, tc_presets_mark, panel);
+    g_signal_connect(panel->box, "destroy", G_CALLBACK(tc_presets_gone), panel);
     return panel->box;
 }
