@@ -13,9 +13,10 @@
 /* SLOTS: textures: two layers being made, two ready, two shown, one to come. */
 /* TELL_EVERY_MS: what is not whole is shown so often; in software showing a picture costs about what a part of one
  * does. */
+/* PAINT_MS: a window that is not seen is not painted. */
 /* BUDGET_MS: of a picture while something moves. A move waits for half of the picture at hand, for its own and for some
  * 30 ms until that is painted: 90 ms, so that 100 are kept with some room. */
-enum { SLOTS = 8, KEEP_BYTES = 256 << 20, KEEP_STEPS = 8192, TELL_EVERY_MS = 400, BUDGET_MS = 40 };
+enum { SLOTS = 8, KEEP_BYTES = 256 << 20, KEEP_STEPS = 8192, TELL_EVERY_MS = 400, BUDGET_MS = 40, PAINT_MS = 30 };
 
 typedef struct request {
     tc_held *held; /* mesh and look; NULL: nothing to show */
@@ -51,14 +52,14 @@ typedef struct made {
 struct tc_pictures {
     GThread *thread;
     GMutex lock;
-    GCond more;
+    GCond more, painted;
     GdkGLContext *context;
     tc_trace *trace;
     tc_checker *checker;
     void (*arrived)(void *user);
     void *user;
     /* under the lock */
-    bool quit, has_next, is_new, told, has_check;
+    bool quit, has_next, is_new, unpainted, told, has_check;
     request next;
     made ready, shown;
     slot pool[SLOTS];
@@ -148,6 +149,8 @@ static void tell_soon(tc_pictures *p)
         p->idle = g_idle_add_full(G_PRIORITY_HIGH, tell, p, NULL);
 }
 
+/* In software both threads draw with the same workers: the next picture waits until this one is painted, so that the
+ * main thread does not wait for it. */
 static void publish(tc_pictures *p)
 {
     p->told_ms = tc_trace_now();
@@ -157,8 +160,11 @@ static void publish(tc_pictures *p)
     p->ready = p->making;
     layer_take(p, p->ready.whole);
     layer_take(p, p->ready.over);
-    p->is_new = true;
+    p->is_new = p->unpainted = true;
     tell_soon(p);
+    const gint64 until = g_get_monotonic_time() + 1000 * PAINT_MS;
+    while (p->unpainted && !p->quit && g_cond_wait_until(&p->painted, &p->lock, until))
+        ;
     g_mutex_unlock(&p->lock);
 }
 
@@ -477,6 +483,7 @@ tc_status tc_pictures_create(tc_pictures **out, GdkGLContext *context, tc_trace 
     *out = NULL;
     g_mutex_init(&p->lock);
     g_cond_init(&p->more);
+    g_cond_init(&p->painted);
     p->context = g_object_ref(context);
     p->trace = trace;
     p->arrived = arrived;
@@ -501,6 +508,7 @@ void tc_pictures_destroy(tc_pictures **pictures)
     g_mutex_lock(&p->lock);
     p->quit = true;
     g_cond_signal(&p->more);
+    g_cond_signal(&p->painted);
     g_mutex_unlock(&p->lock);
     g_thread_join(p->thread);        /* the thread hands pictures to the checker until it ends */
     tc_checker_destroy(&p->checker); /* what it finds, it tells here */
@@ -510,6 +518,7 @@ void tc_pictures_destroy(tc_pictures **pictures)
     g_object_unref(p->context);
     g_mutex_clear(&p->lock);
     g_cond_clear(&p->more);
+    g_cond_clear(&p->painted);
     g_free(p);
     *pictures = NULL;
 }
@@ -570,6 +579,14 @@ void tc_pictures_show(tc_pictures *p, tc_shown *out)
         .checked = p->shown.checked,
         .error = p->shown.error,
     };
+    g_mutex_unlock(&p->lock);
+}
+
+void tc_pictures_painted(tc_pictures *p)
+{
+    g_mutex_lock(&p->lock);
+    p->unpainted = p->is_new;
+    g_cond_signal(&p->painted);
     g_mutex_unlock(&p->lock);
 }
 

@@ -42,6 +42,8 @@ void tc_pictures_destroy(tc_pictures **pictures);
 void tc_pictures_ask(tc_pictures *pictures, const tc_session *session, int width, int height, bool moving, unsigned id);
 /* What there is; its textures last until the next call. From the thread that shows, the context current. */
 void tc_pictures_show(tc_pictures *pictures, tc_shown *out);
+/* What was shown last is painted: the next picture may be begun. */
+void tc_pictures_painted(tc_pictures *pictures);
 /* The last sentence of an error; "": there was none since. [1024] */
 void tc_pictures_error(tc_pictures *pictures, char out[1024]);
 

@@ -191,6 +191,7 @@ static void painted(GdkFrameClock *clock, gpointer user)
     (void)clock;
     if (!v->fresh || !v->shown.id)
         return;
+    tc_pictures_painted(v->pictures);
     v->fresh = false;
     const bool at_full = v->shown.last && !v->shown.over.texture;
     if (v->shown.id != v->painted)
