@@ -211,6 +211,7 @@ static GtkWidget *side_new(window *w)
     gtk_paned_set_shrink_start_child(GTK_PANED(paned), FALSE);
     gtk_paned_set_shrink_end_child(GTK_PANED(paned), FALSE);
     gtk_widget_set_size_request(paned, 400, -1);
+    gtk_widget_set_margin_start(paned, 12); /* the divider beside it takes what is pressed nearer to it */
     tc_view_listen_probe(w->view, probed, w);
     return paned;
 }
