@@ -257,10 +257,30 @@ tc_status tc_document_take_knots(tc_document *document, const tc_transfer *tf, t
 
 /* ------------------------------------------------------------------------------------------------------- writing */
 
+/* The scalar of a place, of the doubles about it one that is read as the same place, so that what is saved stays as it
+ * is however often it is opened. Scales that are logarithmic are read by their logarithms: left as they are. */
+static double scalar_in_text(const tc_document *document, double x)
+{
+    const double first = document->range[0], last = document->range[1], value = tc_document_scalar(document, x);
+    if (document->log || laid(value, first, last) == x || !isfinite(last - first))
+        return value;
+    const double middle = value + (x - laid(value, first, last)) * (last - first);
+    double below = middle, above = middle;
+    for (int step = 0; step < 4; step++) {
+        if (laid(below, first, last) == x)
+            return below;
+        if (laid(above, first, last) == x)
+            return above;
+        below = nextafter(below, first);
+        above = nextafter(above, last);
+    }
+    return value;
+}
+
 /* x of the text; never before the one before it, as rounding might have it. */
 static double x_in_text(const tc_document *document, double x, bool unit, double before)
 {
-    return fmax(before, unit ? x : tc_document_scalar(document, x));
+    return fmax(before, unit ? x : scalar_in_text(document, x));
 }
 
 static json_t *json_colors(const tc_document *document, bool unit)
