@@ -25,12 +25,12 @@ end_all() {
 }
 trap end_all EXIT
 
-# wait_for COMMAND…: until it succeeds; a fault after half a minute.
+# wait_for COMMAND…: until it succeeds; after half a minute the test ends.
 wait_for() {
     tries=600
     until "$@" >/dev/null 2>&1; do
         tries=$((tries - 1))
-        [ $tries -gt 0 ] || { fail "waited in vain: $*"; return 1; }
+        [ $tries -gt 0 ] || { fail "waited in vain: $*"; exit 1; }
         sleep 0.05
     done
 }
@@ -39,19 +39,22 @@ wait_for() {
 display_open() {
     Xvfb -displayfd 1 -screen 0 1400x900x24 -nolisten tcp >display 2>server.log &
     server=$!
-    wait_for test -s display || { cat server.log; exit 1; }
+    wait_for test -s display
     DISPLAY=:$(cat display)
     export DISPLAY
 }
 
 window_named() { window=$(xdotool search --name "$1" 2>/dev/null | head -1) && [ -n "$window" ]; }
 
+window_or_end() { window_named ' · ' || ! kill -0 "$editor"; }
+
 # window_open ARGUMENT…: tetcast edit; returns when its data are there: the title names the field then.
 window_open() {
     last="edit $*"
     "$TETCAST" edit "$@" >out 2>err </dev/null &
     editor=$!
-    wait_for window_named ' · ' || exit 1
+    wait_for window_or_end
+    window_named ' · ' || { fail "there is no window"; exit 1; }
     main=$window
     xdotool windowfocus --sync "$main"
 }
@@ -68,21 +71,34 @@ window_close() {
 # keys NAME…: pressed one after the other.
 keys() { xdotool key --delay 10 "$@"; }
 
-# chooser KEY TITLE PATH: the key opens the chooser of that title, into which the path is typed.
+# chooser KEY TITLE WAY PATH: the key opens the chooser of that title, into which, after the keys WAY, the path is typed.
 chooser() {
     keys "$1"
-    wait_for window_named "$2" || return
-    xdotool windowfocus --sync "$window" key ctrl+a type --delay 5 "$3"
-    keys Return
-    wait_for chooser_is_gone "$window"
+    wait_for window_named "$2"
+    xdotool windowfocus --sync "$window"
+    rounds=8
+    until chooser_is_gone "$window"; do # while it reads its folder it may lose keys: then again
+        [ $rounds -gt 0 ] || { fail "the chooser does not take $4"; exit 1; }
+        rounds=$((rounds - 1))
+        keys $3
+        xdotool type --delay 5 "$4"
+        keys Return
+        tries=40
+        until chooser_is_gone "$window" || [ $tries -eq 0 ]; do
+            tries=$((tries - 1))
+            sleep 0.05
+        done
+    done
     xdotool windowfocus --sync "$main"
 }
-chooser_is_gone() { ! xdotool getwindowname "$1"; }
+chooser_is_gone() { ! xdotool getwindowname "$1" >/dev/null 2>&1; }
 
 # What is written appears whole, so that a file that is there is done.
-save_preset() { chooser ctrl+s 'Save the function' "$work/$1" && wait_for test -s "$work/$1"; }
-save_scene() { chooser ctrl+shift+s 'Save the scene' "$work/$1" && wait_for test -s "$work/$1"; }
-save_picture() { chooser ctrl+e 'Save the picture' "$work/$1" && wait_for test -s "$work/$1"; }
+save_preset() { chooser ctrl+s 'Save the function' ctrl+a "$work/$1"; wait_for test -s "$work/$1"; }
+save_scene() { chooser ctrl+shift+s 'Save the scene' ctrl+a "$work/$1"; wait_for test -s "$work/$1"; }
+save_picture() { chooser ctrl+e 'Save the picture' ctrl+a "$work/$1"; wait_for test -s "$work/$1"; }
+
+open_file() { chooser ctrl+o 'Open data' 'ctrl+l ctrl+a' "$work/$1"; }
 
 # pink.json: a colour map of one colour, which nothing else in the window has.
 printf '[{"Name": "Pink", "ColorSpace": "RGB", "RGBPoints": [0, 1, 0, 1, 1, 1, 0, 1]}]' >pink.json
@@ -132,4 +148,26 @@ near() {
 same_within() {
     run 0 compare "$1" "$2" --json
     json out eq verdict same le max_abs 0.00393 ge covered 1000
+}
+
+# is_for_paraview FILE: what vtkSMTransferFunctionPresets and vtkSMTransferFunctionProxy ask of a preset: an array of
+# objects with a name of their own, a known space, whole rows of colours and of opacities in the order of their scalars,
+# all within 0 and 1.
+is_for_paraview() {
+    command -v python3 >/dev/null || return 0
+    python3 - "$1" >why 2>&1 <<'RULES' || fail "$1: $(tail -1 why)"
+import json, sys
+for preset in json.load(open(sys.argv[1])):
+    assert isinstance(preset["Name"], str) and preset["Name"], "no name"
+    assert preset["ColorSpace"] in ("RGB", "HSV", "Lab", "CIELAB", "Diverging", "Lab/CIEDE2000", "Step"), "colour space"
+    for key in ("RGBPoints", "Points"):
+        row = [preset[key][i:i + 4] for i in range(0, len(preset[key]), 4)]
+        assert len(row) > 1 and len(row[-1]) == 4, key + " are not whole rows"
+        assert all(type(v) in (int, float) for r in row for v in r), key + " are not numbers"
+        assert all(a[0] <= b[0] for a, b in zip(row, row[1:])) and row[0][0] < row[-1][0], key + " are out of order"
+        assert all(0 <= v <= 1 for r in row for v in r[1:]), key + " are beyond 0 and 1"
+    assert preset["RGBPoints"][0] <= preset["Points"][0] and preset["Points"][-4] <= preset["RGBPoints"][-4], \
+        "opacities beyond the colours"
+    assert len(preset.get("NanColor", [0] * 3)) == 3, "NanColor"
+RULES
 }
