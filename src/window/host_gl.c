@@ -1,11 +1,9 @@
 /* host_gl.c: addresses of OpenGL's functions in the context that GTK made. Which of the two libraries has a current
  * context is asked of those that are loaded already: GTK opened the one that it took. */
-#define _GNU_SOURCE
 #include "window/host_gl.h"
 
 #include <dlfcn.h>
 #include <epoxy/gl.h>
-#include <link.h>
 #include <string.h>
 
 typedef void *current_function(void);
@@ -53,31 +51,8 @@ bool tc_host_gl_try(GdkDisplay *display, bool *software, char why[512])
     return good;
 }
 
-#ifdef __SANITIZE_ADDRESS__
-static int driver_find(struct dl_phdr_info *info, size_t size, void *user)
-{
-    (void)size;
-    if (strstr(info->dlpi_name, "_dri.so"))
-        g_strlcpy(user, info->dlpi_name, 512);
-    return 0;
-}
-
-/* A driver that stays loaded has a name in the report of what was lost. */
-static void driver_keep(void)
-{
-    char path[512] = "";
-    dl_iterate_phdr(driver_find, path);
-    if (*path)
-        dlopen(path, RTLD_NOW | RTLD_NODELETE);
-}
-#else
-static void driver_keep(void) {}
-#endif
-
 bool tc_host_gl_ready(void)
 {
-    if (!proc)
-        driver_keep();
     return proc || take("libEGL.so.1", "eglGetCurrentContext", "eglGetProcAddress") ||
            take("libGLX.so.0", "glXGetCurrentContext", "glXGetProcAddressARB") ||
            take("libGL.so.1", "glXGetCurrentContext", "glXGetProcAddressARB");

@@ -34,6 +34,16 @@ cat "$out/broken.md"
 say "damaged files"
 "$build/corrupt" "$build/tetcast" "$here/../../../shared/data" || [ $? -eq 77 ] || status=1
 
+say "the window under random pointer and keys"
+if cmake --build "$build" --target edit_random >/dev/null 2>&1; then
+    whole=$(cd "$build" && pwd)
+    TETCAST=$whole/tetcast TETCAST_HELPERS=$whole TC_BUILD=$whole TC_SOURCE=$(cd "$here/../.." && pwd) \
+        TC_EDIT_EVENTS=20000 sh "$here/../cli/edit_random.sh" >"$out/window.txt" || [ $? -eq 77 ] || status=1
+    cat "$out/window.txt"
+else
+    say "the window is not built here"
+fi
+
 say "beside VTK's renderers"
 if "$build/hard" --context osmesa --export "$out/export"; then
     xvfb-run -a /usr/bin/python3 "$here/peers.py" "$out/export" --table "$out/peers.md" --json "$out/peers.json" ||
