@@ -5,7 +5,7 @@
 mkdir moved undone redone taken
 display_open
 window_open synth:kuhn --color-map pink.json --opacity 0:0.8,0.5:0.8,1:0.79 --integrator table --trace trace.json
-wait_for curve_find || { finish; }
+wait_for curve_find
 
 # The point in the middle goes to a quarter of the range and an opacity of 0.2.
 drag $(((left + right) / 2)) "$top" $((left + (right - left) / 4)) $((bottom - (bottom - top) / 4)) 12
@@ -36,15 +36,19 @@ save_picture picture.png
 save_scene scene.json
 window_close
 
-# Each picture of the drag: the pointer, then the table, the march, and the picture in the window.
+# Pictures of the drag: the pointer, then the table and the march, then the picture in the window.
 json trace.json type traceEvents array
 awk -F'"' '
-    { name = $4; id = $0; ts = $0; sub(/.*"id":/, "", id); id += 0; sub(/.*"ts":/, "", ts); ts += 0 }
-    name == "pointer" { pointer[id] = ts }
-    name == "table" && id in pointer && ts >= pointer[id] { table[id] = ts }
-    name == "render" && id in table && ts >= pointer[id] { render[id] = ts }
-    name == "shown" && id in render && ts >= render[id] && !(id in shown) { shown[id] = 1; n++ }
-    END { print n + 0; exit n < 3 }' trace.json >chains || fail "the trace has $(cat chains) changes that were shown"
+    { id = $0; ts = $0; sub(/.*"id":/, "", id); id += 0; sub(/.*"ts":/, "", ts); ts += 0 }
+    id && !(($4, id) in at) { at[$4, id] = ts; last = id > last ? id : last }
+    END {
+        for (i = 1; i <= last; i++)
+            n += ("pointer", i) in at && ("table", i) in at && ("render", i) in at && ("shown", i) in at &&
+                at["pointer", i] < at["table", i] && at["table", i] < at["shown", i] &&
+                at["pointer", i] < at["render", i] && at["render", i] < at["shown", i]
+        print n + 0
+        exit n < 5 # one of the drag, and the start, what was undone, done again and taken
+    }' trace.json >chains || fail "the trace has $(cat chains) changes that were shown"
 
 run 0 render scene.json -o rendered.png --quiet
 same_within rendered.png picture.png
@@ -53,4 +57,6 @@ same_within batch_000.png picture.png
 size=$(convert picture.png -format '%wx%h' info:)
 run 0 render synth:kuhn --color-map taken/map.json --integrator table --size "$size" -o preset.png --quiet
 same_within preset.png picture.png
+run 0 render synth:kuhn --size "$size" -o plain.png --quiet
+run 2 compare plain.png picture.png
 finish
