@@ -118,6 +118,7 @@ docs: all performance
 	sh docs/figures.sh $(BUILD)/tetcast
 	[ ! -x $(BUILD)/tetcast-edit ] || sh docs/window.sh $(BUILD) docs/images/window.png
 	/usr/bin/python3 docs/gallery.py $(BUILD)/tetcast
+	/usr/bin/python3 docs/plain_png.py docs/images/*.png
 	/usr/bin/python3 docs/accuracy.py $(BUILD)/tetcast $(BUILD)/accuracy $(ACCURACY_ARGS)
 	@mkdir -p $(BUILD)/docs
 	@for page in docs/man/*.1; do \
