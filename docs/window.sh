@@ -4,7 +4,7 @@
 set -eu
 build=$1 out=$2
 if [ "${3:-}" != inside ]; then
-    exec xvfb-run -a -s "-screen 0 1280x820x24" sh "$0" "$build" "$out" inside
+    exec xvfb-run -a -s "-screen 0 1280x820x24 -noreset" sh "$0" "$build" "$out" inside
 fi
 state=$(mktemp -d)
 trap 'kill "$pid" 2>/dev/null || true; rm -rf "$state"' EXIT

@@ -58,7 +58,7 @@ TETCAST=$full
 DISPLAY=:none run 1 edit synth:kuhn
 says "the display could not be opened"
 command -v Xvfb >/dev/null || { echo "skipped: Xvfb is not installed"; finish; }
-Xvfb -displayfd 1 -screen 0 800x600x24 -nolisten tcp >display 2>server.log &
+Xvfb -displayfd 1 -screen 0 800x600x24 -nolisten tcp -noreset >display 2>server.log &
 server=$!
 trap 'kill $server; wait; rm -rf "$work"' EXIT
 tries=400

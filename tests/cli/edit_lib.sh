@@ -40,8 +40,9 @@ wait_for() {
 }
 
 # display_open: an X server of the test's own, on a number that it finds.
+# It is not to begin anew when its last client goes, an xdotool before there is a window.
 display_open() {
-    Xvfb -displayfd 1 -screen 0 1400x900x24 -nolisten tcp >display 2>server.log &
+    Xvfb -displayfd 1 -screen 0 1400x900x24 -nolisten tcp -noreset >display 2>server.log &
     server=$!
     wait_for test -s display
     DISPLAY=:$(cat display)
